@@ -1,0 +1,2 @@
+//! The `lumbre` command.
+fn main() {}

@@ -1,0 +1,60 @@
+//! Scattering at a surface. One file per model; the local frame has the shading normal at +z.
+//!
+//! `wo` points to the camera side, `wi` is the sampled side. Both are unit and point away from the surface.
+
+use crate::math::Vec3;
+use crate::rgb::Spectrum;
+
+/// Which way light is followed: radiance from the camera, or importance-carrying light paths from the lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TransportMode {
+    /// Paths start at the camera and carry radiance: refraction scales it by (ηi/ηt)².
+    Radiance,
+    /// Paths start at a light.
+    Importance,
+}
+
+/// What kind of scattering a sample took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lobe {
+    /// Reflection spread over the hemisphere.
+    DiffuseReflection,
+    /// Reflection by a rough interface.
+    GlossyReflection,
+    /// Perfect mirror direction.
+    SpecularReflection,
+    /// Refraction by a rough interface.
+    GlossyTransmission,
+    /// Perfect refraction by the smooth boundary of a solid.
+    SpecularTransmission,
+    /// Straight on through a smooth thin wall: the direction does not change.
+    ThinTransmission,
+}
+
+impl Lobe {
+    /// True for directions chosen from a finite set; `eval` and `pdf` leave these out.
+    #[inline]
+    pub fn is_delta(self) -> bool {
+        matches!(self, Lobe::SpecularReflection | Lobe::SpecularTransmission | Lobe::ThinTransmission)
+    }
+    /// True when `wi` leaves on the other side of the surface.
+    #[inline]
+    pub fn is_transmission(self) -> bool {
+        matches!(self, Lobe::GlossyTransmission | Lobe::SpecularTransmission | Lobe::ThinTransmission)
+    }
+}
+
+/// A direction drawn by [`Bsdf::sample`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BsdfSample {
+    /// Local direction, unit.
+    pub wi: Vec3,
+    /// f · |cos θi| / pdf. For delta lobes the lobe's weight over the probability of having chosen it.
+    pub weight: Spectrum,
+    /// Density in sr⁻¹, all smooth lobes together. For delta lobes the probability of the choice.
+    pub pdf: f32,
+    /// The lobe chosen.
+    pub lobe: Lobe,
+    /// (ηi/ηt)² scaling already inside `weight`: 1 for reflection; roulette divides it out.
+    pub eta_scale: f32,
+}

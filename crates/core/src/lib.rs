@@ -1,0 +1,18 @@
+//! The physics of Lumbre, pure: vectors and frames, random streams, warps, Fresnel, microfacets, BSDFs, lights, camera,
+//! film and filters, colour, multiple importance sampling. No I/O, no threads, no unsafe code, and nothing that can fail:
+//! a wrong value here is a bug and asserts.
+#![forbid(unsafe_code)]
+
+pub mod bsdf;
+pub mod frame;
+pub mod hash;
+pub mod math;
+pub mod mis;
+pub mod ray;
+pub mod rgb;
+pub mod sampler;
+pub mod warp;
+
+pub use frame::Frame;
+pub use ray::Ray;
+pub use rgb::{Rgb, Spectrum};
