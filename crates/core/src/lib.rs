@@ -6,10 +6,12 @@
 pub mod bsdf;
 pub mod camera;
 pub mod color;
+pub mod distribution;
 pub mod film;
 pub mod filter;
 pub mod frame;
 pub mod hash;
+pub mod light;
 pub mod math;
 pub mod medium;
 pub mod mis;
