@@ -5,8 +5,10 @@
 
 pub mod bsdf;
 pub mod frame;
+pub mod fresnel;
 pub mod hash;
 pub mod math;
+pub mod microfacet;
 pub mod mis;
 pub mod ray;
 pub mod rgb;
