@@ -1,0 +1,38 @@
+//! Cameras as an author writes them; the node that holds one places it.
+
+/// How the camera projects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Pinhole or thin lens.
+    Perspective {
+        /// Vertical field of view, radians, in (0, π).
+        yfov: f32,
+        /// Width over height as the author framed it; `None`: that of the picture.
+        aspect: Option<f32>,
+    },
+}
+
+/// A camera. It looks along -z of its node, +y up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// Name; may be empty.
+    pub name: String,
+    /// Projection.
+    pub projection: Projection,
+    /// Radius of the lens, metres; 0 is a pinhole.
+    pub lens_radius: f32,
+    /// Distance along -z that is sharp, metres.
+    pub focus_distance: f32,
+}
+
+impl Camera {
+    /// A pinhole with this vertical field of view in radians.
+    pub fn perspective(yfov: f32) -> Self {
+        Camera {
+            name: String::new(),
+            projection: Projection::Perspective { yfov, aspect: None },
+            lens_radius: 0.0,
+            focus_distance: 1.0,
+        }
+    }
+}
