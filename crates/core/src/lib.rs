@@ -18,6 +18,7 @@ pub mod mis;
 pub mod ray;
 pub mod rgb;
 pub mod sampler;
+pub mod settings;
 pub mod warp;
 
 pub use camera::Camera;
