@@ -1,1 +1,2 @@
-//! Under construction.
+//! The CPU backend.
+pub mod bvh;
