@@ -34,8 +34,7 @@ impl Frame {
     pub fn from_normal_tangent(n: Vec3, tangent: Vec3) -> Self {
         let t = tangent - n * n.dot(tangent);
         let len2 = t.length_squared();
-        // Negated so that NaN also falls back.
-        if !(len2 > 1e-12 * tangent.length_squared()) {
+        if len2.is_nan() || len2 <= 1e-12 * tangent.length_squared() {
             return Frame::from_normal(n);
         }
         let t = t / len2.sqrt();

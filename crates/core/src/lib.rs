@@ -4,15 +4,25 @@
 #![forbid(unsafe_code)]
 
 pub mod bsdf;
+pub mod camera;
+pub mod color;
+pub mod distribution;
+pub mod film;
+pub mod filter;
 pub mod frame;
 pub mod hash;
+pub mod light;
 pub mod math;
+pub mod medium;
 pub mod mis;
 pub mod ray;
 pub mod rgb;
 pub mod sampler;
+pub mod settings;
 pub mod warp;
 
+pub use camera::Camera;
+pub use film::Film;
 pub use frame::Frame;
 pub use ray::Ray;
 pub use rgb::{Rgb, Spectrum};

@@ -1,10 +1,12 @@
 //! Scenes in two forms. [`Scene`] is what an author writes: meshes, materials, textures, lights, cameras, nodes.
-//! `CompiledScene` is what backends read: flat `#[repr(C)]` arrays made from it by `compile`.
+//! [`CompiledScene`] is what backends read: flat `#[repr(C)]` arrays made from it by `compile`.
 //!
 //! Units are metres, seconds and radians; +y is up, right-handed, cameras look along -z (as in glTF).
 #![forbid(unsafe_code)]
 
 pub mod authored;
+pub mod compile;
+pub mod compiled;
 
 pub use authored::camera::{Camera, Projection};
 pub use authored::environment::{Background, Environment, EnvironmentMap, Sun};
@@ -15,3 +17,5 @@ pub use authored::mesh::{Mesh, Primitive};
 pub use authored::node::Node;
 pub use authored::scene::Scene;
 pub use authored::texture::{Filter, Image, Texture, Wrap};
+pub use compile::{CompileError, Compiled, compile};
+pub use compiled::CompiledScene;

@@ -1,0 +1,102 @@
+//! The sRGB transfer curve (IEC 61966-2-1) and exposure.
+
+use crate::math::{exp, exp2, ln, pow};
+use crate::rgb::Rgb;
+use std::sync::LazyLock;
+
+/// Linear 0..1 to sRGB 0..1; values outside are clamped.
+#[inline]
+pub fn srgb_encode(x: f32) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * pow(x, 1.0 / 2.4) - 0.055 }
+}
+
+/// sRGB 0..1 to linear 0..1.
+#[inline]
+pub fn srgb_decode(x: f32) -> f32 {
+    if x <= 0.040_45 { x / 12.92 } else { pow((x + 0.055) / 1.055, 2.4) }
+}
+
+static DECODE_U8: LazyLock<[f32; 256]> =
+    LazyLock::new(|| core::array::from_fn(|i| srgb_decode(i as f32 / 255.0)));
+
+/// The linear value of each 8-bit sRGB code.
+#[inline]
+pub fn srgb_decode_table() -> &'static [f32; 256] {
+    &DECODE_U8
+}
+
+/// The 8-bit sRGB code nearest to a linear value.
+#[inline]
+pub fn srgb_encode_u8(x: f32) -> u8 {
+    (srgb_encode(x) * 255.0 + 0.5) as u8
+}
+
+/// How a picture's radiance is scaled before it is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub enum Exposure {
+    /// The log-average luminance becomes middle grey, 0.18.
+    #[default]
+    Auto,
+    /// 0.5 over the average luminance, that clamped to 0.1..1: what the first thesis does.
+    Thesis,
+    /// A factor of 2^EV.
+    Ev(f32),
+}
+
+impl Exposure {
+    /// Bounds of the automatic factor: a picture in which nothing is lit stays dark.
+    pub const AUTO_RANGE: (f32, f32) = (1e-6, 1e6);
+
+    /// The factor for a picture. Pixels that are black or not finite do not count in the averages of `Auto`.
+    pub fn factor(self, pixels: &[Rgb]) -> f32 {
+        match self {
+            Exposure::Ev(ev) => exp2(ev),
+            Exposure::Thesis => {
+                0.5 / mean(pixels.iter().map(|p| p.luminance())).unwrap_or(1.0).clamp(0.1, 1.0)
+            }
+            Exposure::Auto => {
+                let lit = pixels.iter().map(|p| p.luminance()).filter(|y| y.is_finite() && *y > 0.0);
+                // A tenth of a thousandth of the mean floors the logarithm, so that near-black pixels do not rule.
+                let Some(average) = mean(lit.clone()) else { return 1.0 };
+                let floor = 1e-4 * average;
+                let log_average = mean(lit.map(|y| ln(y.max(floor)))).map_or(average, exp);
+                (0.18 / log_average).clamp(Self::AUTO_RANGE.0, Self::AUTO_RANGE.1)
+            }
+        }
+    }
+}
+
+/// Mean of the finite values, in double precision; `None` if there are none.
+fn mean(values: impl Iterator<Item = f32>) -> Option<f32> {
+    let (sum, n) =
+        values.filter(|v| v.is_finite()).fold((0.0f64, 0u64), |(s, n), v| (s + f64::from(v), n + 1));
+    (n > 0).then(|| (sum / n as f64) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ANALYTIC row 45.
+    #[test]
+    fn srgb_closed_forms() {
+        assert!((srgb_encode(0.5) - 0.7354).abs() < 5e-5);
+        assert!((srgb_encode(0.18) - 0.4614).abs() < 5e-5);
+        assert!((srgb_decode(128.0 / 255.0) - 0.2159).abs() < 5e-5);
+        for i in 0..=255u8 {
+            assert_eq!(srgb_encode_u8(srgb_decode_table()[i as usize]), i);
+        }
+    }
+
+    #[test]
+    fn exposure_puts_the_log_average_at_middle_grey() {
+        let picture = [Rgb::splat(1.0), Rgb::splat(4.0), Rgb::BLACK, Rgb::splat(f32::NAN)];
+        assert!((Exposure::Auto.factor(&picture) - 0.18 / 2.0).abs() < 1e-6);
+        assert_eq!(Exposure::Auto.factor(&[Rgb::BLACK]), 1.0);
+        assert_eq!(Exposure::Ev(3.0).factor(&picture), 8.0);
+        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(0.25)]), 2.0);
+        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(9.0)]), 0.5);
+        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(0.001)]), 5.0);
+    }
+}

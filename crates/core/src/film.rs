@@ -1,0 +1,356 @@
+//! The film: exact sums of camera samples. Sums are integers (fixed point, saturating and counted), so that they add in any
+//! order to the same bits; a picture then depends neither on threads nor on tiles, pauses or shards.
+
+use crate::rgb::Rgb;
+
+/// Fractional bits of the sums: a quantum of 6e-8, a range of 5e11.
+const FRACTION_BITS: i32 = 24;
+const SCALE: f64 = (1u64 << FRACTION_BITS) as f64;
+
+/// What one camera sample brings to its pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FilmSample {
+    /// Radiance along the camera ray.
+    pub radiance: Rgb,
+    /// What the ray met first; `None`: it left the scene.
+    pub first_hit: Option<FirstHit>,
+}
+
+/// Auxiliary values of the first hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FirstHit {
+    /// Directional albedo, 0 to 1.
+    pub albedo: Rgb,
+    /// Shading normal, world space, towards the camera.
+    pub normal: [f32; 3],
+    /// Metres, world space.
+    pub position: [f32; 3],
+    /// Distance from the camera along the ray, metres.
+    pub depth: f32,
+}
+
+/// Sums of one pixel, in quanta of 2⁻²⁴ (squares: 2⁻⁴⁸).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PixelSums {
+    radiance: [i64; 3],
+    luminance: i64,
+    luminance_squared: u128,
+    albedo: [i64; 3],
+    normal: [i64; 3],
+    position: [i64; 3],
+    depth: i64,
+    samples: u32,
+    hits: u32,
+    saturated: u32,
+}
+
+/// A camera sample that was thrown away because its radiance was not finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NonFinite {
+    /// Row and column (row first, so that they sort in reading order).
+    pub row_column: [u32; 2],
+    /// Sample index.
+    pub sample: u32,
+}
+
+/// Most non-finite samples that are named; all are counted.
+const NAMED: usize = 16;
+
+/// Sums over a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Film {
+    width: u32,
+    height: u32,
+    pixels: Vec<PixelSums>,
+    non_finite_count: u64,
+    non_finite: Vec<NonFinite>,
+}
+
+fn quantise(x: f32) -> i64 {
+    // `as` saturates; NaN cannot come here.
+    (f64::from(x) * SCALE).round_ties_even() as i64
+}
+
+impl PixelSums {
+    fn add_to(sum: &mut i64, value: i64, saturated: &mut u32) {
+        let (total, overflow) = sum.overflowing_add(value);
+        *sum = if overflow { sum.saturating_add(value) } else { total };
+        *saturated = saturated.saturating_add(u32::from(overflow || value == i64::MAX || value == i64::MIN));
+    }
+
+    /// Adds a finite sample.
+    fn add(&mut self, s: &FilmSample) {
+        let mut saturated = 0;
+        for (sum, v) in self.radiance.iter_mut().zip(s.radiance.to_array()) {
+            Self::add_to(sum, quantise(v), &mut saturated);
+        }
+        let y = quantise(s.radiance.luminance());
+        Self::add_to(&mut self.luminance, y, &mut saturated);
+        let y = u128::from(y.unsigned_abs());
+        self.luminance_squared = self.luminance_squared.saturating_add(y * y);
+        self.samples += 1;
+        if let Some(hit) = &s.first_hit {
+            self.hits += 1;
+            let planes = [
+                (&mut self.albedo, hit.albedo.to_array()),
+                (&mut self.normal, hit.normal),
+                (&mut self.position, hit.position),
+            ];
+            for (sums, values) in planes {
+                for (sum, v) in sums.iter_mut().zip(values) {
+                    Self::add_to(sum, quantise(v), &mut saturated);
+                }
+            }
+            Self::add_to(&mut self.depth, quantise(hit.depth), &mut saturated);
+        }
+        self.saturated = self.saturated.saturating_add(saturated);
+    }
+
+    /// Adds the sums of other samples of the same pixel.
+    fn merge(&mut self, o: &PixelSums) {
+        let mut saturated = 0;
+        let pairs = self
+            .radiance
+            .iter_mut()
+            .chain(&mut self.albedo)
+            .chain(&mut self.normal)
+            .chain(&mut self.position);
+        let others = o.radiance.iter().chain(&o.albedo).chain(&o.normal).chain(&o.position);
+        for (a, &b) in pairs.zip(others) {
+            Self::add_to(a, b, &mut saturated);
+        }
+        Self::add_to(&mut self.luminance, o.luminance, &mut saturated);
+        Self::add_to(&mut self.depth, o.depth, &mut saturated);
+        self.luminance_squared = self.luminance_squared.saturating_add(o.luminance_squared);
+        self.samples += o.samples;
+        self.hits += o.hits;
+        self.saturated = self.saturated.saturating_add(o.saturated).saturating_add(saturated);
+    }
+
+    fn mean(sum: i64, n: u32) -> f32 {
+        if n == 0 { 0.0 } else { (sum as f64 / SCALE / f64::from(n)) as f32 }
+    }
+    fn mean3(sums: [i64; 3], n: u32) -> [f32; 3] {
+        sums.map(|s| Self::mean(s, n))
+    }
+    /// Mean radiance.
+    pub fn radiance(&self) -> Rgb {
+        Rgb::from_array(Self::mean3(self.radiance, self.samples))
+    }
+    /// Mean albedo of the samples that hit something, times coverage.
+    pub fn albedo(&self) -> Rgb {
+        Rgb::from_array(Self::mean3(self.albedo, self.samples))
+    }
+    /// Mean normal of the samples that hit something, times coverage; shorter than 1 where normals differ.
+    pub fn normal(&self) -> [f32; 3] {
+        Self::mean3(self.normal, self.samples)
+    }
+    /// Mean position of the samples that hit something, metres.
+    pub fn position(&self) -> [f32; 3] {
+        Self::mean3(self.position, self.hits)
+    }
+    /// Mean distance of the samples that hit something, metres; infinite where none did.
+    pub fn depth(&self) -> f32 {
+        if self.hits == 0 { f32::INFINITY } else { Self::mean(self.depth, self.hits) }
+    }
+    /// Samples taken.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+    /// Share of samples that hit something.
+    pub fn coverage(&self) -> f32 {
+        if self.samples == 0 { 0.0 } else { self.hits as f32 / self.samples as f32 }
+    }
+    /// Sums that ran out of range.
+    pub fn saturated(&self) -> u32 {
+        self.saturated
+    }
+    /// Standard error of the mean luminance, from the spread of the samples taken as independent (for Sobol points an
+    /// upper estimate); infinite below two samples.
+    pub fn error(&self) -> f32 {
+        if self.samples < 2 {
+            return f32::INFINITY;
+        }
+        let n = f64::from(self.samples);
+        let mean = self.luminance as f64 / SCALE / n;
+        let second = self.luminance_squared as f64 / (SCALE * SCALE) / n;
+        ((second - mean * mean).max(0.0) / (n - 1.0)).sqrt() as f32
+    }
+}
+
+impl Film {
+    /// An empty film. Memory is about 150 bytes a pixel, whatever the number of samples.
+    pub fn new(width: u32, height: u32) -> Self {
+        let pixels = vec![PixelSums::default(); width as usize * height as usize];
+        Film { width, height, pixels, non_finite_count: 0, non_finite: Vec::new() }
+    }
+    /// Bytes that a film of this size takes.
+    pub fn bytes(width: u32, height: u32) -> u64 {
+        u64::from(width) * u64::from(height) * size_of::<PixelSums>() as u64
+    }
+    /// Columns.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+    /// All pixels, row by row, row 0 on top.
+    pub fn pixels(&self) -> &[PixelSums] {
+        &self.pixels
+    }
+    /// Sums of one pixel.
+    pub fn pixel(&self, x: u32, y: u32) -> &PixelSums {
+        &self.pixels[(y * self.width + x) as usize]
+    }
+
+    /// Adds one camera sample. One that is not finite is counted and named instead: it enters the sample count as black, so
+    /// that the count stays that of the samples taken.
+    pub fn add(&mut self, pixel: [u32; 2], index: u32, sample: &FilmSample) {
+        let sums = &mut self.pixels[(pixel[1] * self.width + pixel[0]) as usize];
+        let finite = sample.radiance.is_finite()
+            && sample.first_hit.is_none_or(|h| {
+                h.albedo.is_finite()
+                    && h.depth.is_finite()
+                    && h.normal.iter().chain(&h.position).all(|v| v.is_finite())
+            });
+        if finite {
+            sums.add(sample);
+        } else {
+            sums.add(&FilmSample::default());
+            self.non_finite_count += 1;
+            self.name_non_finite(NonFinite { row_column: [pixel[1], pixel[0]], sample: index });
+        }
+    }
+
+    fn name_non_finite(&mut self, n: NonFinite) {
+        // The smallest few are kept, whatever the order they come in.
+        if let Err(at) = self.non_finite.binary_search(&n) {
+            self.non_finite.insert(at, n);
+            self.non_finite.truncate(NAMED);
+        }
+    }
+
+    /// How many samples were not finite.
+    pub fn non_finite_count(&self) -> u64 {
+        self.non_finite_count
+    }
+    /// The first of them in reading order.
+    pub fn non_finite(&self) -> &[NonFinite] {
+        &self.non_finite
+    }
+
+    /// Adds a film of the same size, made of other samples.
+    ///
+    /// # Panics
+    /// If the sizes differ.
+    pub fn merge(&mut self, other: &Film) {
+        assert_eq!((self.width, self.height), (other.width, other.height), "films of different sizes");
+        for (a, b) in self.pixels.iter_mut().zip(&other.pixels) {
+            a.merge(b);
+        }
+        self.merge_non_finite(other, [0, 0]);
+    }
+
+    /// Adds a smaller film (a tile) whose top left pixel lies at `at`.
+    ///
+    /// # Panics
+    /// If the tile reaches outside.
+    pub fn merge_tile(&mut self, tile: &Film, at: [u32; 2]) {
+        assert!(
+            at[0] + tile.width <= self.width && at[1] + tile.height <= self.height,
+            "tile outside the film"
+        );
+        for y in 0..tile.height {
+            let from = (y * tile.width) as usize;
+            let to = ((at[1] + y) * self.width + at[0]) as usize;
+            let n = tile.width as usize;
+            for (a, b) in self.pixels[to..to + n].iter_mut().zip(&tile.pixels[from..from + n]) {
+                a.merge(b);
+            }
+        }
+        self.merge_non_finite(tile, at);
+    }
+
+    fn merge_non_finite(&mut self, other: &Film, at: [u32; 2]) {
+        self.non_finite_count += other.non_finite_count;
+        for n in &other.non_finite {
+            let row_column = [n.row_column[0] + at[1], n.row_column[1] + at[0]];
+            self.name_non_finite(NonFinite { row_column, sample: n.sample });
+        }
+    }
+
+    /// Mean radiance of each pixel, row by row.
+    pub fn radiance(&self) -> Vec<Rgb> {
+        self.pixels.iter().map(PixelSums::radiance).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hash::unit;
+
+    fn sample(i: u32) -> FilmSample {
+        let hit = FirstHit {
+            albedo: Rgb::splat(unit(i, 3)),
+            normal: [0.0, unit(i, 4), 0.0],
+            position: [unit(i, 5); 3],
+            depth: 2.0,
+        };
+        FilmSample {
+            radiance: Rgb::new(unit(i, 0), 1e3 * unit(i, 1), unit(i, 2)),
+            first_hit: (i % 3 != 0).then_some(hit),
+        }
+    }
+
+    #[test]
+    fn sums_do_not_depend_on_order_or_parts() {
+        let mut whole = Film::new(2, 1);
+        let (mut a, mut b) = (Film::new(2, 1), Film::new(2, 1));
+        for i in 0..1000 {
+            whole.add([1, 0], i, &sample(i));
+        }
+        for i in (0..1000).rev() {
+            if i % 7 < 3 { &mut a } else { &mut b }.add([1, 0], i, &sample(i));
+        }
+        b.merge(&a);
+        assert_eq!(b, whole);
+    }
+
+    #[test]
+    fn means_and_errors_are_those_of_the_samples() {
+        let mut film = Film::new(1, 1);
+        let n = 4000;
+        let (mut sum, mut squares) = (0.0f64, 0.0f64);
+        for i in 0..n {
+            let s = sample(i);
+            film.add([0, 0], i, &s);
+            let y = f64::from(s.radiance.luminance());
+            sum += y;
+            squares += y * y;
+        }
+        let (n, p) = (f64::from(n), film.pixel(0, 0));
+        let error = ((squares / n - (sum / n) * (sum / n)) / (n - 1.0)).sqrt();
+        assert!((f64::from(p.radiance().luminance()) / (sum / n) - 1.0).abs() < 1e-5);
+        assert!((f64::from(p.error()) / error - 1.0).abs() < 1e-5);
+        assert_eq!(p.depth(), 2.0);
+    }
+
+    #[test]
+    fn non_finite_and_saturating_samples_are_counted_not_added() {
+        let mut film = Film::new(4, 4);
+        let bad = FilmSample { radiance: Rgb::new(1.0, f32::NAN, 0.0), first_hit: None };
+        film.add([3, 2], 5, &bad);
+        film.add([3, 2], 6, &FilmSample { radiance: Rgb::WHITE, first_hit: None });
+        assert_eq!(film.non_finite_count(), 1);
+        assert_eq!(film.non_finite(), [NonFinite { row_column: [2, 3], sample: 5 }]);
+        assert_eq!(film.pixel(3, 2).radiance(), Rgb::splat(0.5));
+        film.add([0, 0], 0, &FilmSample { radiance: Rgb::splat(1e30), first_hit: None });
+        assert!(film.pixel(0, 0).saturated() > 0 && film.pixel(0, 0).radiance().is_finite());
+        let mut big = Film::new(8, 8);
+        big.merge_tile(&film, [4, 3]);
+        assert_eq!(big.non_finite(), [NonFinite { row_column: [5, 7], sample: 5 }]);
+    }
+}

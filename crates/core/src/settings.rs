@@ -1,0 +1,72 @@
+//! What the integrators of every backend honour.
+
+use crate::filter::FilterKind;
+use crate::sampler::SamplerKind;
+
+/// What shadow rays do at smooth transmissive surfaces. Thin walls always let them pass with their tint, which is exact: the
+/// direction does not change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum TransmissiveShadows {
+    /// Solids let light through straight, with Fresnel and tint, where it comes from a light that scattered rays do not find
+    /// (point, spot, directional, sun); they block the light of what can be hit (surfaces, sky), which paths find by themselves.
+    #[default]
+    Auto,
+    /// Solids block: caustics come from scattered rays alone.
+    Physical,
+    /// Solids let all light through straight, and caustics through them are left out.
+    Straight,
+}
+
+/// How a Lambert lobe draws its directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum HemisphereSampling {
+    /// In proportion to the cosine (Malley).
+    #[default]
+    Cosine,
+    /// Uniformly: for comparison only.
+    Uniform,
+}
+
+/// Settings of a path traced render.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Most scattering events on a path; `None`: no limit.
+    pub max_depth: Option<u32>,
+    /// First event after which roulette may end a path; `None`: never.
+    pub roulette: Option<u32>,
+    /// Random stream.
+    pub sampler: SamplerKind,
+    /// Seed of the stream.
+    pub seed: u32,
+    /// Pixel filter.
+    pub filter: FilterKind,
+    /// Next-event estimation with multiple importance sampling; without it lights are found by chance alone.
+    pub light_sampling: bool,
+    /// Shadow rays at glass.
+    pub transmissive_shadows: TransmissiveShadows,
+    /// Debug switch.
+    pub hemisphere: HemisphereSampling,
+    /// Camera rays see the back faces of single-sided opaque materials too.
+    pub shade_back_faces: bool,
+}
+
+impl RenderSettings {
+    /// Bound that stands for "no limit": it ends a path that is caught between perfect mirrors.
+    pub const DEPTH_BOUND: u32 = 65_536;
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        RenderSettings {
+            max_depth: Some(16),
+            roulette: Some(4),
+            sampler: SamplerKind::Sobol,
+            seed: 0,
+            filter: FilterKind::default(),
+            light_sampling: true,
+            transmissive_shadows: TransmissiveShadows::Auto,
+            hemisphere: HemisphereSampling::Cosine,
+            shade_back_faces: false,
+        }
+    }
+}

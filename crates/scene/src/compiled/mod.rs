@@ -1,0 +1,90 @@
+//! The one form that both backends read: flat arrays of `#[repr(C)]` records, uploaded as they are.
+
+pub mod geometry;
+pub mod lights;
+pub mod material;
+pub mod texture;
+
+use geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex};
+use lights::{EnvironmentRecord, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord};
+use lumbre_core::Rgb;
+use lumbre_core::light::environment::EnvironmentLight;
+use material::MaterialRecord;
+use texture::TextureRecord;
+
+/// An index that points nowhere.
+pub const NONE: u32 = u32::MAX;
+
+/// A scene ready to be drawn.
+#[derive(Clone, Debug, Default)]
+pub struct CompiledScene {
+    /// Vertex positions, object space, metres; `vertices` holds the rest of each.
+    pub positions: Vec<[f32; 3]>,
+    /// Vertex attributes, as many as `positions`.
+    pub vertices: Vec<Vertex>,
+    /// Vertex indices of each triangle, into the whole of `positions`.
+    pub triangles: Vec<[u32; 3]>,
+    /// Material of each triangle.
+    pub triangle_materials: Vec<u32>,
+    /// Meshes: ranges of `triangles`.
+    pub meshes: Vec<MeshRecord>,
+    /// Rank of each triangle among the emissive ones of its mesh, or [`NONE`]; only for meshes that have any.
+    pub emissive_ranks: Vec<u32>,
+    /// Meshes placed in the world.
+    pub instances: Vec<InstanceRecord>,
+    /// Transforms of the instances, keyed by time.
+    pub transforms: Vec<TransformKey>,
+    /// Materials; the last one stands in where none is given.
+    pub materials: Vec<MaterialRecord>,
+    /// Textures, each a range of `texels`.
+    pub textures: Vec<TextureRecord>,
+    /// RGBA8 texels, red in the low byte.
+    pub texels: Vec<u32>,
+    /// Every light, in the order of `light_cdf`.
+    pub lights: Vec<LightRecord>,
+    /// Cumulative probability of choosing each light: `lights.len() + 1` values.
+    pub light_cdf: Vec<f32>,
+    /// Emissive triangles in world space.
+    pub triangle_lights: Vec<TriangleLightRecord>,
+    /// Point, spot and directional lights.
+    pub punctual_lights: Vec<PunctualRecord>,
+    /// The sun; its radiance is zero when there is none.
+    pub sun: SunRecord,
+    /// The environment map; a black one of one texel when there is none.
+    pub environment: EnvironmentRecord,
+    /// Texels of the environment.
+    pub environment_pixels: Vec<Rgb>,
+    /// Its distribution over rows.
+    pub environment_row_cdf: Vec<f32>,
+    /// Its distribution within rows.
+    pub environment_cell_cdf: Vec<f32>,
+    /// Corners of the world-space bounding box; `min > max` for an empty scene.
+    pub bounds: [[f32; 3]; 2],
+}
+
+impl CompiledScene {
+    /// The environment with its tables.
+    #[inline]
+    pub fn environment_light(&self) -> EnvironmentLight<'_> {
+        EnvironmentLight {
+            width: self.environment.width,
+            height: self.environment.height,
+            rotation: self.environment.rotation,
+            pixels: &self.environment_pixels,
+            row_cdf: &self.environment_row_cdf,
+            cell_cdf: &self.environment_cell_cdf,
+        }
+    }
+
+    /// Probability that the light sampler picks this light.
+    #[inline]
+    pub fn prob_light(&self, light: u32) -> f32 {
+        self.light_cdf[light as usize + 1] - self.light_cdf[light as usize]
+    }
+
+    /// Radius of the sphere around the bounding box, metres; 0 for an empty scene.
+    pub fn radius(&self) -> f32 {
+        let [min, max] = self.bounds.map(glam::Vec3::from_array);
+        if min.cmpgt(max).any() { 0.0 } else { 0.5 * (max - min).length() }
+    }
+}
