@@ -6,6 +6,7 @@
 pub mod bsdf;
 pub mod camera;
 pub mod color;
+pub mod control;
 pub mod distribution;
 pub mod film;
 pub mod filter;

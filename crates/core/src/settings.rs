@@ -1,6 +1,7 @@
 //! What the integrators of every backend honour.
 
 use crate::bsdf::DiffuseSampling;
+use crate::camera::Camera;
 use crate::filter::FilterKind;
 use crate::sampler::SamplerKind;
 
@@ -60,4 +61,15 @@ impl Default for RenderSettings {
             shade_back_faces: false,
         }
     }
+}
+
+/// What is drawn: from where, and how.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// Camera.
+    pub camera: Camera,
+    /// Settings.
+    pub settings: RenderSettings,
+    /// Number of the frame: part of the random stream.
+    pub frame: u32,
 }

@@ -1,73 +1,45 @@
 //! The CPU backend: prepares a scene, then renders ranges of samples into a film, tile by tile, on the rayon pool it is
 //! called from.
 
-use crate::bvh::{Blas, InstanceDesc, Tlas};
+use crate::bvh::{Blas, InstanceDesc, SimdLevel, Tlas};
 use crate::interaction::{Interaction, geometric_normal, material_of};
 use crate::observer::{PathObserver, RayCounter};
 use crate::path;
 use crate::surface::medium;
 use crate::tracer::Tracer;
 use glam::Vec3;
+use lumbre_core::Ray;
+use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::{Film, FilmSample};
 use lumbre_core::filter::Filter;
 use lumbre_core::medium::{Medium, MediumStack};
 use lumbre_core::ray::offset_ray_origin;
 use lumbre_core::sampler::Sampler;
-use lumbre_core::settings::RenderSettings;
-use lumbre_core::{Camera, Ray};
+use lumbre_core::settings::View;
 use lumbre_scene::CompiledScene;
+use lumbre_scene::compiled::geometry::InstanceRecord;
 use lumbre_scene::compiled::material::flag;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// Side of a tile, pixels.
 const TILE: u32 = 16;
-
-/// What is drawn: from where, and how.
-#[derive(Clone, Debug)]
-pub struct View {
-    /// Camera.
-    pub camera: Camera,
-    /// Settings.
-    pub settings: RenderSettings,
-    /// Number of the frame: part of the random stream.
-    pub frame: u32,
-}
-
-/// What has been done since a call to [`CpuBackend::render`] began.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Progress {
-    /// Camera samples taken.
-    pub samples: u64,
-    /// Rays traced.
-    pub rays: u64,
-}
-
-/// Says, before each tile, whether to go on, and hears what has been done after it. Called from any thread.
-pub trait Control: Sync {
-    /// True to leave out the tiles that have not begun.
-    fn cancelled(&self) -> bool {
-        false
-    }
-    /// A tile is done.
-    fn progress(&self, _so_far: Progress) {}
-}
-
-impl Control for () {}
 
 /// A scene ready to be rendered on the CPU.
 #[derive(Debug)]
 pub struct CpuBackend {
     scene: CompiledScene,
     tlas: Tlas,
+    /// The same instances, asked about every hit where back faces are invisible to the camera; `None` if there are none.
+    camera_tlas: Option<Tlas>,
 }
 
 impl CpuBackend {
     /// Builds the acceleration structures.
     pub fn new(scene: CompiledScene) -> Self {
-        let blas: Vec<Blas> = scene
+        let blas: Vec<Arc<Blas>> = scene
             .meshes
             .par_iter()
             .map(|m| {
@@ -76,21 +48,37 @@ impl CpuBackend {
                 let local = |t: &[u32; 3]| t.map(|i| i - m.first_vertex);
                 let triangles: Vec<[u32; 3]> =
                     scene.triangles[t..t + m.triangle_count as usize].iter().map(local).collect();
-                Blas::build(positions, &triangles)
+                Arc::new(Blas::build(bytemuck::cast_slice(positions), &triangles))
             })
             .collect();
-        let instances: Vec<InstanceDesc> = scene
-            .instances
-            .iter()
-            .map(|i| InstanceDesc {
-                blas: i.mesh,
-                object_to_world: scene.transforms[i.first_transform as usize].object_to_world(),
-                mask: i.mask,
-                opaque: scene.meshes[i.mesh as usize].opaque == 1,
-            })
-            .collect();
-        let tlas = Tlas::build(&instances, blas);
-        CpuBackend { scene, tlas }
+        let instances = |camera: bool| -> Vec<InstanceDesc> {
+            let desc = |i: &InstanceRecord| {
+                let mesh = &scene.meshes[i.mesh as usize];
+                InstanceDesc {
+                    blas: i.mesh,
+                    object_to_world: scene.transforms[i.first_transform as usize].object_to_world(),
+                    mask: i.mask,
+                    opaque: mesh.opaque == 1 && !(camera && mesh.culls == 1),
+                }
+            };
+            scene.instances.iter().map(desc).collect()
+        };
+        let culls = scene.meshes.iter().any(|m| m.culls == 1);
+        let camera_tlas = culls.then(|| Tlas::build(&instances(true), blas.clone()));
+        let tlas = Tlas::build(&instances(false), blas);
+        CpuBackend { scene, tlas, camera_tlas }
+    }
+
+    /// Traverses with `level` from now on; the picture stays the same.
+    ///
+    /// # Panics
+    /// If the processor does not support it.
+    pub fn with_level(self, level: SimdLevel) -> Self {
+        CpuBackend {
+            tlas: self.tlas.with_level(level),
+            camera_tlas: self.camera_tlas.map(|t| t.with_level(level)),
+            ..self
+        }
     }
 
     /// The scene.
@@ -104,7 +92,12 @@ impl CpuBackend {
     }
 
     fn tracer<'a>(&'a self, view: &'a View) -> Tracer<'a> {
-        Tracer { scene: &self.scene, tlas: &self.tlas, settings: &view.settings }
+        Tracer {
+            scene: &self.scene,
+            tlas: &self.tlas,
+            camera_tlas: self.camera_tlas.as_ref(),
+            settings: &view.settings,
+        }
     }
 
     /// Adds the samples of `range` to every pixel of `film`, which has the size of the picture. Stops between tiles when

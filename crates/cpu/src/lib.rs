@@ -4,6 +4,7 @@
 #![deny(unsafe_code)]
 
 pub mod backend;
+#[allow(unsafe_code, reason = "SIMD kernels and the dispatch to them")]
 pub mod bvh;
 pub mod interaction;
 pub mod light_sampling;
@@ -13,4 +14,4 @@ pub mod shadow;
 pub mod surface;
 pub mod tracer;
 
-pub use backend::{Control, CpuBackend, Progress, View};
+pub use backend::CpuBackend;

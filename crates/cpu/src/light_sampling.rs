@@ -75,13 +75,15 @@ pub fn sample_light(scene: &CompiledScene, p: Vec3, u: &LightPointSample) -> Opt
             let (wi, pdf) = environment.sample(u.point)?;
             Some(far(wi, pdf, environment.radiance(wi)))
         }
-        _ => sample_punctual(record.kind, &scene.punctual_lights[record.index as usize], p).map(|s| LightSample {
-            light,
-            wi: s.wi,
-            end: ShadowEnd::Distance(s.distance),
-            radiance: s.irradiance,
-            pdf: prob,
-            is_delta: true,
+        _ => sample_punctual(record.kind, &scene.punctual_lights[record.index as usize], p).map(|s| {
+            LightSample {
+                light,
+                wi: s.wi,
+                end: ShadowEnd::Distance(s.distance),
+                radiance: s.irradiance,
+                pdf: prob,
+                is_delta: true,
+            }
         }),
     }
 }

@@ -234,7 +234,13 @@ impl<O: PathObserver> Path<'_, '_, O> {
     }
 
     /// Traces the shadow ray.
-    fn light_transmittance(&self, it: &Interaction, surface: &Surface, light: &LightSample, reflects: bool) -> Spectrum {
+    fn light_transmittance(
+        &self,
+        it: &Interaction,
+        surface: &Surface,
+        light: &LightSample,
+        reflects: bool,
+    ) -> Spectrum {
         let mut media = self.media;
         if let Some(beyond) = surface.beyond.filter(|_| !reflects) {
             media.cross(beyond, it.material, it.front);

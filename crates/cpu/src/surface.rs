@@ -48,7 +48,12 @@ pub fn coverage(scene: &CompiledScene, material: &MaterialRecord, at: &HitAttrib
 
 /// Radiance emitted towards the side `front`.
 #[inline]
-pub fn emission(scene: &CompiledScene, material: &MaterialRecord, uv: &[[f32; 2]; 2], front: bool) -> Spectrum {
+pub fn emission(
+    scene: &CompiledScene,
+    material: &MaterialRecord,
+    uv: &[[f32; 2]; 2],
+    front: bool,
+) -> Spectrum {
     if !material.has(flag::EMISSIVE) || !(front || material.has(flag::DOUBLE_SIDED)) {
         return Spectrum::BLACK;
     }
@@ -73,13 +78,20 @@ impl Surface {
         let material = &scene.materials[it.material as usize];
         let base_color = base_color(scene, material, &it.uv, &it.color).rgb;
         let solid = material.has(flag::SOLID);
-        let beyond = solid.then(|| if it.front { medium(material, it.material) } else { media.outside(it.material) });
+        let beyond =
+            solid.then(|| if it.front { medium(material, it.material) } else { media.outside(it.material) });
         // On its back the ray is inside the solid, whatever the stack could hold.
         let here = if it.front { media.current().ior } else { material.ior };
         let params = bsdf_params(scene, material, &it.uv, base_color);
         let params = BsdfParams { eta: beyond.map_or(1.0, |m| m.ior / here), diffuse_sampling, ..params };
         let ng = if it.front { it.ng } else { -it.ng };
-        Surface { frame: shading_frame(scene, material, it, wo, ng), ng, bsdf: Bsdf::new(&params), base_color, beyond }
+        Surface {
+            frame: shading_frame(scene, material, it, wo, ng),
+            ng,
+            bsdf: Bsdf::new(&params),
+            base_color,
+            beyond,
+        }
     }
 }
 
@@ -98,7 +110,8 @@ pub fn bsdf_params(
         roughness: material.roughness * rough_metal.rgb.g,
         ior: material.ior,
         specular: material.specular * texture(&material.specular_texture, Encoding::Linear).a,
-        specular_color: material.specular_color * texture(&material.specular_color_texture, Encoding::Srgb).rgb,
+        specular_color: material.specular_color
+            * texture(&material.specular_color_texture, Encoding::Srgb).rgb,
         transmission: material.transmission * texture(&material.transmission_texture, Encoding::Linear).rgb.r,
         thin: !material.has(flag::SOLID),
         ..BsdfParams::default()
@@ -124,7 +137,11 @@ fn shading_frame(
         let mapped = base.t * x + base.b * (y * it.bitangent_sign) + base.n * texel.b;
         let mapped = mapped.normalize_or(ns);
         // A map that points below the surface is flattened onto it.
-        ns = if mapped.dot(it.ng) > 0.0 { mapped } else { (mapped - it.ng * mapped.dot(it.ng)).normalize_or(ns) };
+        ns = if mapped.dot(it.ng) > 0.0 {
+            mapped
+        } else {
+            (mapped - it.ng * mapped.dot(it.ng)).normalize_or(ns)
+        };
     }
     let ns = if it.front { ns } else { -ns };
     // Interpolated normals may face away from a viewer who sees the triangle: bend them until they do not.

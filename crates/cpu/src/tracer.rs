@@ -15,6 +15,8 @@ pub struct Tracer<'a> {
     pub scene: &'a CompiledScene,
     /// Its acceleration structure.
     pub tlas: &'a Tlas,
+    /// The one that asks about back faces, if the scene has any that camera rays do not see.
+    pub camera_tlas: Option<&'a Tlas>,
     /// Settings.
     pub settings: &'a RenderSettings,
 }
@@ -60,15 +62,15 @@ impl Tracer<'_> {
 
     /// The closest surface that a camera ray finds: back faces of single-sided opaque materials do not count.
     pub fn closest_hit_camera(&self, ray: &Ray, key: CoverageKey) -> Option<Interaction> {
-        if self.settings.shade_back_faces {
+        let Some(tlas) = self.camera_tlas.filter(|_| !self.settings.shade_back_faces) else {
             return self.closest_hit(ray, key);
-        }
+        };
         let visible = |hit: &Hit| {
             let material = &self.scene.materials[material_of(self.scene, hit) as usize];
             let culled = material.culls_back_faces() && geometric_normal(self.scene, hit).dot(ray.dir) >= 0.0;
             !culled && self.covered(hit, key)
         };
-        let hit = self.tlas.closest_hit_filtered(ray, visible)?;
+        let hit = tlas.closest_hit(ray, visible)?;
         Some(Interaction::new(self.scene, ray, &hit))
     }
 }
