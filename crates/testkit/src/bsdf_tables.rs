@@ -53,29 +53,28 @@ pub fn directional(mu: f64, alpha: f64) -> Albedo {
 /// One row of the tables.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// 1 - E at each column's cosine.
+    /// 1 - E.
     pub deficit: Vec<f64>,
-    /// Effective cosine c with B = E (1 - c)⁵, at equidistant cosines.
-    pub schlick_cos: Vec<f64>,
+    /// B / E - (1 - μ)⁵.
+    pub schlick_excess: Vec<f64>,
     /// 2 ∫ (1 - E) μ dμ of the interpolated row, over α^1.5 to make it slow to change.
     pub deficit_average: f64,
     /// 2 ∫ B μ dμ of the interpolated row.
     pub schlick_average: f64,
 }
 
-/// Effective Schlick cosine at one point.
-pub fn schlick_cos(mu: f64, alpha: f64) -> f64 {
-    let a = directional(mu, alpha);
-    1.0 - (a.schlick / (1.0 - a.deficit)).powf(0.2)
-}
-
 /// Computes row `k`.
 pub fn row(k: usize) -> Row {
     let alpha = alpha_of_row(k);
-    let deficit: Vec<f64> = (0..N_MU).map(|j| directional(mu_of_column(j, alpha), alpha).deficit).collect();
-    let schlick: Vec<f64> = (0..N_MU).map(|j| schlick_cos(j as f64 / (N_MU - 1) as f64, alpha)).collect();
-    let lookup = |t: &[f64], x: f64| {
-        let p = (x * (N_MU - 1) as f64).min((N_MU - 1) as f64 - 1e-9);
+    let (mut deficit, mut schlick_excess) = (Vec::new(), Vec::new());
+    for mu in (0..N_MU).map(|j| mu_of_column(j, alpha)) {
+        let a = directional(mu, alpha);
+        deficit.push(a.deficit);
+        schlick_excess.push(a.schlick / (1.0 - a.deficit) - (1.0 - mu).powi(5));
+    }
+    let lookup = |t: &[f64], mu: f64| {
+        let s = (mu * (1.0 + alpha) / (mu + alpha)).sqrt();
+        let p = (s * (N_MU - 1) as f64).min((N_MU - 1) as f64 - 1e-9);
         let j = p as usize;
         t[j] + (t[j + 1] - t[j]) * (p - j as f64)
     };
@@ -86,12 +85,12 @@ pub fn row(k: usize) -> Row {
         let s = (i as f64 + 0.5) / n as f64;
         let mu = s.powi(4);
         let weight = 2.0 * mu * 4.0 * s.powi(3) / n as f64;
-        let d = lookup(&deficit, mu * (1.0 + alpha) / (mu + alpha));
+        let d = lookup(&deficit, mu);
         deficit_average += weight * d;
-        schlick_average += weight * (1.0 - d) * (1.0 - lookup(&schlick, mu)).powi(5);
+        schlick_average += weight * (1.0 - d) * ((1.0 - mu).powi(5) + lookup(&schlick_excess, mu)).max(0.0);
     }
     deficit_average /= alpha.powf(1.5);
-    Row { deficit, schlick_cos: schlick, deficit_average, schlick_average }
+    Row { deficit, schlick_excess, deficit_average, schlick_average }
 }
 
 /// The text of `crates/core/src/bsdf/albedo_data.rs`.
@@ -104,7 +103,7 @@ pub fn data_file() -> String {
     type Pick = fn(&Row) -> &Vec<f64>;
     let tables: [(&str, &str, Pick); 2] = [
         ("DEFICIT", "1 - E by width and warped cosine.", |r| &r.deficit),
-        ("SCHLICK_COS", "Effective Schlick cosine by width and cosine.", |r| &r.schlick_cos),
+        ("SCHLICK_EXCESS", "B / E less (1 - μ)⁵ by width and warped cosine.", |r| &r.schlick_excess),
     ];
     for (name, doc, pick) in tables {
         let _ = writeln!(out, "\n/// {doc}\npub(super) static {name}: [[f32; N_MU]; N_ALPHA] = [");
@@ -129,6 +128,67 @@ pub fn data_file() -> String {
 }
 
 fn literals(values: &[f64]) -> String {
-    let text: Vec<String> = values.iter().map(|v| format!("{:.4e}", v.max(0.0))).collect();
+    let text: Vec<String> = values.iter().map(|v| format!("{v:.4e}")).collect();
     text.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumbre_core::bsdf::albedo::AlbedoRow;
+
+    #[test]
+    fn quadrature_meets_the_closed_table() {
+        for (alpha, mu, e) in
+            [(1.0, 1.0, 0.3069), (1.0, 0.1, 0.7602), (0.5, 0.75, 0.6821), (0.5, 0.25, 0.7652)]
+        {
+            assert!((1.0 - directional(mu, alpha).deficit - e).abs() < 6e-5, "{alpha} {mu}");
+        }
+    }
+    #[test]
+    fn scan() {
+        let mut worst = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
+        for k in 0..40 {
+            let r = 0.0317 + (1.0 - 0.0317) * (k as f64 / 39.0);
+            let alpha = r * r;
+            let row = AlbedoRow::new(alpha as f32);
+            let (mut e, mut b) = ((0.0f64, 0.0), (0.0f64, 0.0));
+            for j in 0..60 {
+                let mu = ((j as f64 + 0.5) / 60.0).powi(3);
+                let d = row.directional(mu as f32);
+                let t = directional(mu, alpha);
+                let de = f64::from(d.deficit) - t.deficit;
+                let db = f64::from(d.schlick) - t.schlick;
+                if de.abs() > e.0.abs() {
+                    e = (de, mu)
+                }
+                if db.abs() > b.0.abs() {
+                    b = (db, mu)
+                }
+            }
+            // average of the interpolant against the stored one
+            let n = 20000;
+            let (mut ad, mut ab) = (0.0, 0.0);
+            for i in 0..n {
+                let s = (i as f64 + 0.5) / n as f64;
+                let d = row.directional(s.powi(4) as f32);
+                let w = 8.0 * s.powi(7) / n as f64;
+                ad += w * f64::from(d.deficit);
+                ab += w * f64::from(d.schlick);
+            }
+            let av = row.average();
+            println!(
+                "a {alpha:.5} dE {:+.5} @{:.4} dB {:+.5} @{:.4}  avg rel {:+.5} {:+.5}",
+                e.0,
+                e.1,
+                b.0,
+                b.1,
+                f64::from(av.deficit) / ad - 1.0,
+                f64::from(av.schlick) / ab - 1.0
+            );
+            worst.0 = worst.0.max(e.0.abs());
+            worst.1 = worst.1.max(b.0.abs());
+        }
+        println!("{worst:?}");
+    }
 }

@@ -2,11 +2,11 @@
 //! (Kulla and Conty 2017) and layer without inventing light.
 //!
 //! E(μ, α) is the albedo for reflectance 1, B(μ, α) the part weighted by Schlick's (1 - wo·m)⁵; the albedo of a Schlick interface
-//! is then exactly f0 (E - B) + f90 B. Stored are 1 - E over x = μ (1 + α) / (μ + α), a coordinate in which the dip of E at
-//! cosines near α has the same width for every α, and the cosine c with B = E (1 - c)⁵, which is nearly μ itself. Rows are linear in √α.
-//! Interpolation is within 0.002 of both E and B (tested where the tables are made: testkit `bsdf_tables`).
+//! is then exactly f0 (E - B) + f90 B. Stored are 1 - E and the excess B/E - (1-μ)⁵, over s = √(μ (1 + α) / (μ + α)), a coordinate in
+//! which the dip of E at cosines near α has the same width for every α. Rows are linear in √α.
+//! Interpolation is within 0.001 of both E and B (tested where the tables are made: testkit `bsdf_tables`).
 
-use super::albedo_data::{DEFICIT, DEFICIT_AVERAGE, SCHLICK_AVERAGE, SCHLICK_COS};
+use super::albedo_data::{DEFICIT, DEFICIT_AVERAGE, SCHLICK_AVERAGE, SCHLICK_EXCESS};
 use crate::fresnel::schlick_weight;
 use crate::math::lerp;
 use crate::microfacet::ALPHA_SMOOTH;
@@ -25,9 +25,9 @@ pub fn alpha_of_row(k: usize) -> f64 {
     (first + (1.0 - first) * k as f64 / (N_ALPHA - 1) as f64).powi(2)
 }
 
-/// Cosine of column `j` of the table of 1 - E in a row of width `alpha`, for the quadrature.
+/// Cosine of column `j` in a row of width `alpha`, for the quadrature.
 pub fn mu_of_column(j: usize, alpha: f64) -> f64 {
-    let x = j as f64 / (N_MU - 1) as f64;
+    let x = (j as f64 / (N_MU - 1) as f64).powi(2);
     alpha * x / (1.0 + alpha - x)
 }
 
@@ -84,15 +84,16 @@ impl AlbedoRow {
     /// 1 - E at `mu` in [0, 1].
     #[inline]
     pub fn deficit(&self, mu: f32) -> f32 {
-        self.lookup(&DEFICIT, mu * (1.0 + self.alpha) / (mu + self.alpha))
+        self.lookup(&DEFICIT, self.column(mu))
     }
 
     /// Both at `mu` in [0, 1].
     #[inline]
     pub fn directional(&self, mu: f32) -> Directional {
-        let deficit = self.deficit(mu);
-        let schlick = (1.0 - deficit) * schlick_weight(self.lookup(&SCHLICK_COS, mu));
-        Directional { deficit, schlick }
+        let column = self.column(mu);
+        let deficit = self.lookup(&DEFICIT, column);
+        let excess = self.lookup(&SCHLICK_EXCESS, column);
+        Directional { deficit, schlick: (1.0 - deficit) * (schlick_weight(mu) + excess).max(0.0) }
     }
 
     /// Both averaged over the hemisphere with the cosine.
@@ -108,11 +109,17 @@ impl AlbedoRow {
         }
     }
 
+    /// Column and fraction.
     #[inline]
-    fn lookup(&self, table: &[[f32; N_MU]; N_ALPHA], x: f32) -> f32 {
-        let p = (x * (N_MU - 1) as f32).clamp(0.0, (N_MU - 1) as f32);
+    fn column(&self, mu: f32) -> (usize, f32) {
+        let s = (mu * (1.0 + self.alpha) / (mu + self.alpha)).sqrt();
+        let p = (s * (N_MU - 1) as f32).clamp(0.0, (N_MU - 1) as f32);
         let j = (p as usize).min(N_MU - 2);
-        let t = p - j as f32;
+        (j, p - j as f32)
+    }
+
+    #[inline]
+    fn lookup(&self, table: &[[f32; N_MU]; N_ALPHA], (j, t): (usize, f32)) -> f32 {
         let (a, b) = (&table[self.row as usize], &table[self.row as usize + 1]);
         lerp(lerp(a[j], a[j + 1], t), lerp(b[j], b[j + 1], t), self.frac)
     }
