@@ -5,7 +5,7 @@
 //! same with the integrand times Schlick's (1 - wo·m)⁵. Integrated over the spherical cap of visible normals (Dupuy and Benyoub
 //! 2023), where the integrand is the bounded ratio G2/G1 of Heitz 2018.
 
-use lumbre_core::bsdf::albedo::{N_ALPHA, N_MU, alpha_of_row, mu_of_column};
+use lumbre_core::bsdf::albedo::{AVERAGES_PER_ROW, N_ALPHA, N_AVERAGE, N_MU, alpha_of_row, mu_of_column};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -50,79 +50,98 @@ pub fn directional(mu: f64, alpha: f64) -> Albedo {
     Albedo { deficit: deficit / total, schlick: schlick / total }
 }
 
-/// One row of the tables.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+/// The tables, `[row][column]`, and the averages by quarter row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tables {
     /// 1 - E.
-    pub deficit: Vec<f64>,
+    pub deficit: Vec<Vec<f64>>,
     /// B / E - (1 - μ)⁵.
-    pub schlick_excess: Vec<f64>,
-    /// 2 ∫ (1 - E) μ dμ of the interpolated row, over α^1.5 to make it slow to change.
-    pub deficit_average: f64,
-    /// 2 ∫ B μ dμ of the interpolated row.
-    pub schlick_average: f64,
+    pub schlick_excess: Vec<Vec<f64>>,
+    /// 2 ∫ (1 - E) μ dμ of the interpolated table, over α^1.5 to make it slow to change.
+    pub deficit_average: Vec<f64>,
+    /// 2 ∫ B μ dμ of the interpolated table.
+    pub schlick_average: Vec<f64>,
 }
 
-/// Computes row `k`.
-pub fn row(k: usize) -> Row {
-    let alpha = alpha_of_row(k);
-    let (mut deficit, mut schlick_excess) = (Vec::new(), Vec::new());
-    for mu in (0..N_MU).map(|j| mu_of_column(j, alpha)) {
-        let a = directional(mu, alpha);
-        deficit.push(a.deficit);
-        schlick_excess.push(a.schlick / (1.0 - a.deficit) - (1.0 - mu).powi(5));
-    }
-    let lookup = |t: &[f64], mu: f64| {
-        let s = (mu * (1.0 + alpha) / (mu + alpha)).sqrt();
-        let p = (s * (N_MU - 1) as f64).min((N_MU - 1) as f64 - 1e-9);
-        let j = p as usize;
-        t[j] + (t[j + 1] - t[j]) * (p - j as f64)
+/// One row: 1 - E and B / E - (1 - μ)⁵.
+pub fn row(k: usize) -> [Vec<f64>; 2] {
+    let alpha = alpha_of_row(k as f64);
+    let at = |w: f64, f: &dyn Fn(f64, Albedo) -> f64| -> Vec<f64> {
+        (0..N_MU).map(|j| mu_of_column(j, w)).map(|mu| f(mu, directional(mu, alpha))).collect()
     };
-    // μ = s⁴ spreads the points over the narrow dip at grazing angles.
-    let n = 40_000;
-    let (mut deficit_average, mut schlick_average) = (0.0, 0.0);
-    for i in 0..n {
-        let s = (i as f64 + 0.5) / n as f64;
-        let mu = s.powi(4);
-        let weight = 2.0 * mu * 4.0 * s.powi(3) / n as f64;
-        let d = lookup(&deficit, mu);
-        deficit_average += weight * d;
-        schlick_average += weight * (1.0 - d) * ((1.0 - mu).powi(5) + lookup(&schlick_excess, mu)).max(0.0);
-    }
-    deficit_average /= alpha.powf(1.5);
-    Row { deficit, schlick_excess, deficit_average, schlick_average }
+    let deficit = at(alpha, &|_, a| a.deficit);
+    [deficit, at(alpha.sqrt(), &|mu, a| a.schlick / (1.0 - a.deficit) - (1.0 - mu).powi(5))]
 }
 
-/// The text of `crates/core/src/bsdf/albedo_data.rs`.
+impl Tables {
+    /// Computes everything.
+    pub fn new() -> Self {
+        let mut tables = Tables::default();
+        for [deficit, excess] in (0..N_ALPHA).map(row) {
+            tables.deficit.push(deficit);
+            tables.schlick_excess.push(excess);
+        }
+        for k in 0..N_AVERAGE {
+            let k = k as f64 / AVERAGES_PER_ROW as f64;
+            let average = tables.average(k);
+            tables.deficit_average.push(average.deficit / alpha_of_row(k).powf(1.5));
+            tables.schlick_average.push(average.schlick);
+        }
+        tables
+    }
+
+    /// Hemispherical averages of the bilinear interpolation at a fractional row.
+    fn average(&self, k: f64) -> Albedo {
+        let alpha = alpha_of_row(k);
+        let i = (k as usize).min(N_ALPHA - 2);
+        let lookup = |table: &[Vec<f64>], mu: f64, w: f64| {
+            let p = (mu * (1.0 + w) / (mu + w)).sqrt() * (N_MU - 1) as f64;
+            let j = (p as usize).min(N_MU - 2);
+            let along = |row: &[f64]| row[j] + (row[j + 1] - row[j]) * (p - j as f64);
+            let (a, b) = (along(&table[i]), along(&table[i + 1]));
+            a + (b - a) * (k - i as f64)
+        };
+        let n = 10_000;
+        let mut sum = Albedo { deficit: 0.0, schlick: 0.0 };
+        for s in (0..n).map(|i| (i as f64 + 0.5) / n as f64) {
+            // μ = s⁴ spreads the points over the narrow dip at grazing angles.
+            let mu = s.powi(4);
+            let weight = 8.0 * s.powi(7) / n as f64;
+            let deficit = lookup(&self.deficit, mu, alpha);
+            let schlick = (1.0 - mu).powi(5) + lookup(&self.schlick_excess, mu, alpha.sqrt());
+            sum.deficit += weight * deficit;
+            sum.schlick += weight * (1.0 - deficit) * schlick.max(0.0);
+        }
+        sum
+    }
+}
+
+/// The text of `crates/core/src/bsdf/albedo_data.rs`, before formatting.
 pub fn data_file() -> String {
-    let rows: Vec<Row> = (0..N_ALPHA).map(row).collect();
+    let tables = Tables::new();
     let mut out = String::from(
         "//! Data of [`super::albedo`], written by `cargo run --release -p lumbre-testkit --example bsdf_tables`. Do not edit.\n\n\
-         use super::albedo::{N_ALPHA, N_MU};\n",
+         use super::albedo::{N_ALPHA, N_AVERAGE, N_MU};\n",
     );
-    type Pick = fn(&Row) -> &Vec<f64>;
-    let tables: [(&str, &str, Pick); 2] = [
-        ("DEFICIT", "1 - E by width and warped cosine.", |r| &r.deficit),
-        ("SCHLICK_EXCESS", "B / E less (1 - μ)⁵ by width and warped cosine.", |r| &r.schlick_excess),
-    ];
-    for (name, doc, pick) in tables {
+    for (name, doc, table) in [
+        ("DEFICIT", "1 - E by width and warped cosine.", &tables.deficit),
+        ("SCHLICK_EXCESS", "B / E - (1 - μ)⁵ by width and warped cosine.", &tables.schlick_excess),
+    ] {
         let _ = writeln!(out, "\n/// {doc}\npub(super) static {name}: [[f32; N_MU]; N_ALPHA] = [");
-        for r in &rows {
-            let _ = writeln!(out, "    [{}],", literals(pick(r)));
+        for row in table {
+            let _ = writeln!(out, "    [{}],", literals(row));
         }
         out.push_str("];\n");
     }
-    let averages: [(&str, &str, Vec<f64>); 2] = [
-        (
-            "DEFICIT_AVERAGE",
-            "Hemispherical 1 - E by width.",
-            rows.iter().map(|r| r.deficit_average).collect(),
-        ),
-        ("SCHLICK_AVERAGE", "Hemispherical B by width.", rows.iter().map(|r| r.schlick_average).collect()),
-    ];
-    for (name, doc, values) in averages {
-        let _ =
-            writeln!(out, "\n/// {doc}\npub(super) static {name}: [f32; N_ALPHA] = [{}];", literals(&values));
+    for (name, doc, values) in [
+        ("DEFICIT_AVERAGE", "Hemispherical 1 - E by width, over α^1.5.", &tables.deficit_average),
+        ("SCHLICK_AVERAGE", "Hemispherical B by width.", &tables.schlick_average),
+    ] {
+        let _ = writeln!(
+            out,
+            "\n/// {doc}\npub(super) static {name}: [f32; N_AVERAGE] = [{}];",
+            literals(values)
+        );
     }
     out
 }
@@ -148,8 +167,8 @@ mod tests {
     #[test]
     fn scan() {
         let mut worst = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
-        for k in 0..40 {
-            let r = 0.0317 + (1.0 - 0.0317) * (k as f64 / 39.0);
+        for k in 0..24 {
+            let r = 0.0317 + (1.0 - 0.0317) * (k as f64 / 23.0).powf(1.3);
             let alpha = r * r;
             let row = AlbedoRow::new(alpha as f32);
             let (mut e, mut b) = ((0.0f64, 0.0), (0.0f64, 0.0));
