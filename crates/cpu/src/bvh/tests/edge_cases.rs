@@ -124,7 +124,8 @@ fn ties_go_to_the_smallest_instance_and_triangle() {
     // The same grid in reverse order of triangles, three times in place: all hits tie six times over.
     let (positions, mut triangles) = grid(8, 0.0);
     triangles.extend(triangles.clone());
-    let blas = vec![Arc::new(Blas::build(&positions, &triangles)); 2];
+    let mesh = Arc::new(Blas::build(&positions, &triangles));
+    let blas = vec![mesh.clone(), mesh];
     let place = |blas| InstanceDesc::new(blas, Affine3A::IDENTITY);
     let tlas = Tlas::build(&[place(1), place(0), place(1)], blas);
     let mut random = Random(56);

@@ -67,8 +67,8 @@ fn a_lost_child_is_noticed() {
 #[test]
 fn a_leaf_without_its_second_packet_is_noticed() {
     let cut = |blas: &mut Blas| {
-        let children = blas.nodes.iter_mut().flat_map(|n| &mut n.children);
-        let child = children.filter(|c| c.is_leaf() && c.packet_range().1 > 1).next();
+        let mut children = blas.nodes.iter_mut().flat_map(|n| &mut n.children);
+        let child = children.find(|c| c.is_leaf() && c.packet_range().1 > 1);
         let child = child.expect("a leaf of two packets");
         *child = Child::packets(child.packet_range().0, 1);
     };
@@ -95,8 +95,9 @@ fn wrong_along_needles(margins: bool) -> usize {
             }
         }
         let mut query = Closest::new(r.t_max, |_: &Hit| true);
+        let mut t_best = r.t_max;
         // SAFETY: the portable level needs nothing.
-        unsafe { blas.trace::<Portable, _>(&trav, &mut f32::INFINITY, (0, true), &mut query) };
+        unsafe { blas.trace::<Portable, _>(&trav, &mut t_best, (0, true), &mut query) };
         wrong += usize::from(bits(&query.into_hit()) != bits(&tlas.closest_hit_brute(&r, |_| true)));
     }
     wrong
