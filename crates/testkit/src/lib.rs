@@ -4,3 +4,5 @@ pub mod bsdf_rows;
 pub mod bsdf_tables;
 pub mod chi_square;
 pub mod furnace;
+pub mod measure;
+pub mod shapes;
