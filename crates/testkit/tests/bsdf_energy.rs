@@ -88,6 +88,27 @@ fn smooth_surfaces_are_exact() {
     }
 }
 
+/// Single scattering at a rough boundary loses light: how much is kept at least, both sides, is part of the documentation.
+#[test]
+fn rough_boundary_keeps_what_it_says() {
+    for (roughness, bound) in
+        [(0.05, 0.88), (0.15, 0.90), (0.3, 0.86), (0.5, 0.78), (0.75, 0.60), (1.0, 0.35)]
+    {
+        let mut least = f64::INFINITY;
+        for eta in [1.5, 1.0 / 1.5] {
+            let params =
+                BsdfParams { transmission: 1.0, thin: false, roughness, eta, ..BsdfParams::default() };
+            for cos in [1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.05, 0.01, 0.003, 1e-3] {
+                let kept = furnace(&Bsdf::new(&params), direction(cos, 0.4), 4_096).total[0];
+                assert!(kept < 1.0 + 1e-4, "gain at {roughness} {eta} {cos}: {kept}");
+                least = least.min(kept);
+            }
+        }
+        // Tight, so that a loss 3 % larger is found.
+        assert!(least > bound && least * 0.97 < bound, "roughness {roughness}: keeps {least}, says {bound}");
+    }
+}
+
 /// Lambert drawn by the cosine has no variance at all.
 #[test]
 fn lambert_weight_is_the_albedo() {

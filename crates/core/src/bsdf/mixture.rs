@@ -285,8 +285,11 @@ impl Bsdf {
     }
 }
 
+/// Makes a term from the parameters, the clamped base colour and the interface.
+type Term = fn(&BsdfParams, Spectrum, Option<Rough>) -> Model;
+
 /// The terms of the mixture in the order of their weights.
-const TERMS: [fn(&BsdfParams, Spectrum, Option<Rough>) -> Model; 3] = [metal, base, transmissive];
+const TERMS: [Term; 3] = [metal, base, transmissive];
 
 #[inline]
 fn metal(_: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
