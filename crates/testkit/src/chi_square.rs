@@ -305,9 +305,9 @@ mod tests {
         assert!(!test(&grid, n, cosine, tilted).accept(0.01, 100));
         let uniform = |w: Vec3| if w.z > 0.0 { 0.5 / lumbre_core::math::PI } else { 0.0 };
         assert!(!test(&grid, n, cosine, uniform).accept(0.01, 100));
-        let lossy = |k: u32| if k % 100 == 0 { None } else { cosine(k) };
+        let lossy = |k: u32| if k.is_multiple_of(100) { None } else { cosine(k) };
         assert!(!test(&grid, n, lossy, |w| cosine_hemisphere_pdf(w.z)).accept(0.01, 100));
-        let leaking = |k: u32| if k % 1000 == 0 { Some(-Vec3::Z) } else { cosine(k) };
+        let leaking = |k: u32| if k.is_multiple_of(1000) { Some(-Vec3::Z) } else { cosine(k) };
         assert!(!test(&grid, n, leaking, |w| cosine_hemisphere_pdf(w.z)).accept(0.01, 100));
     }
 }

@@ -171,7 +171,7 @@ fn importance_is_the_adjoint_of_radiance() {
             if s.wi.z.abs() < 0.02 {
                 continue;
             }
-            // f*(wo, wi) = f(wi, wo): Veach 1997, 3.7.5.
+            // f*(wo, wi) = f(wi, wo): Veach 1997, chapter 3.
             let adjoint = bsdf.eval(wo, s.wi, Importance) / s.wi.z.abs();
             let swapped =
                 if s.wi.z > 0.0 { bsdf.eval(s.wi, wo, Radiance) } else { behind.eval(-s.wi, -wo, Radiance) }
