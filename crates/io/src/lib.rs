@@ -1,1 +1,20 @@
-//! Under construction.
+//! Files to scenes and images, images to files. The only crate that opens files.
+//!
+//! Every file is taken for hostile: sizes are checked against [`Limits`] before memory is taken, names inside a scene
+//! cannot lead out of its folder, and whatever is wrong ends in one [`IoError`] that names the file and the place.
+#![forbid(unsafe_code)]
+
+mod error;
+mod files;
+mod gltf;
+mod image;
+mod limits;
+mod open;
+mod warnings;
+
+pub use error::{ErrorKind, IoError};
+pub use image::exr::{ExrImage, ExrLayer, read_exr, write_exr};
+pub use image::png::write_png;
+pub use image::{LinearImage, LoadedEnvironment, read_environment, read_linear_image};
+pub use limits::Limits;
+pub use open::{LoadOptions, Loaded, SCENE_FORMATS, load_scene};

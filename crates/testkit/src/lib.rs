@@ -1,1 +1,3 @@
-//! Under construction.
+//! Test tools of Lumbre: statistical tests of samplers and models, reference quadratures, scene builders.
+
+pub mod bsdf_tables;

@@ -1,0 +1,163 @@
+//! Whole files in, whole files out. Reading takes regular files of bounded size only; writing goes through a temporary
+//! file beside the target that replaces it in one step, so that no reader ever sees half a file.
+
+use crate::{IoError, Limits};
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Reads a regular file of at most `limit` bytes. Pipes and devices are refused: opening one may block for ever.
+pub(crate) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, IoError> {
+    let open = |e: io::Error| IoError::open(path, &e);
+    let refuse = |reason: &str| IoError::Open {
+        path: path.into(),
+        place: String::new(),
+        reason: format!("cannot open: {reason}"),
+    };
+    let kind = fs::metadata(path).map_err(open)?;
+    if kind.is_dir() {
+        return Err(refuse("it is a folder"));
+    }
+    if !kind.is_file() {
+        return Err(refuse("it is not a regular file"));
+    }
+    let file = File::open(path).map_err(open)?;
+    let size = file.metadata().map_err(open)?.len();
+    Limits::check(path, "", "file size", size, limit)?;
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
+    // The file may grow while it is read: the limit holds all the same.
+    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(open)?;
+    Limits::check(path, "", "file size", bytes.len() as u64, limit)?;
+    Ok(bytes)
+}
+
+/// Writes a file through `fill` in one step: temporary file in the same folder, flush to disk, rename. When anything
+/// fails, `path` is as it was and the temporary file is gone.
+pub(crate) fn write_atomic(
+    path: &Path,
+    fill: impl FnOnce(&mut File) -> Result<(), String>,
+) -> Result<(), IoError> {
+    let fail = |e: io::Error| IoError::write(path, e);
+    let target = write_target(path)?;
+    let folder = match target.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    };
+    let mut temporary = temporary_beside(folder, &target).map_err(fail)?;
+    fill(temporary.as_file_mut()).map_err(|reason| IoError::write(path, reason))?;
+    temporary.as_file().sync_all().map_err(fail)?;
+    temporary.persist(&target).map_err(|e| fail(e.error))?;
+    sync_folder(folder);
+    Ok(())
+}
+
+/// The file that is really meant: links are followed, so that the link stays and what it points to is replaced.
+fn write_target(path: &Path) -> Result<PathBuf, IoError> {
+    if path.file_name().is_none() {
+        return Err(IoError::write(path, "the path has no file name"));
+    }
+    let Ok(kind) = fs::metadata(path) else { return Ok(path.into()) };
+    if kind.is_dir() {
+        return Err(IoError::write(path, "it is a folder"));
+    }
+    if !kind.is_file() {
+        return Err(IoError::write(path, "it is not a regular file"));
+    }
+    fs::canonicalize(path).map_err(|e| IoError::write(path, e))
+}
+
+fn temporary_beside(folder: &Path, target: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut prefix = std::ffi::OsString::from(".");
+    prefix.push(target.file_name().unwrap_or_default());
+    prefix.push(".");
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(".tmp");
+    #[cfg(unix)]
+    {
+        // As an ordinary new file: read and write for all, less the umask. (The default is private to the user.)
+        use std::os::unix::fs::PermissionsExt;
+        let mode = fs::metadata(target).map_or(0o666, |m| m.permissions().mode() & 0o777);
+        builder.permissions(fs::Permissions::from_mode(mode));
+    }
+    builder.tempfile_in(folder)
+}
+
+/// Makes the rename last through a power cut, where folders can be synchronised; elsewhere the file is whole anyway.
+fn sync_folder(folder: &Path) {
+    if let Ok(handle) = File::open(folder) {
+        let _ = handle.sync_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    fn names(dir: &Path) -> Vec<String> {
+        let mut v: Vec<_> =
+            fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        v.sort();
+        v
+    }
+
+    #[test]
+    fn a_failed_write_keeps_the_old_file_and_leaves_nothing() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("out.png");
+        fs::write(&path, "old").unwrap();
+        let e = write_atomic(&path, |f| {
+            f.write_all(b"half").unwrap();
+            Err("disk on fire".into())
+        })
+        .unwrap_err();
+        assert_eq!(e.to_string(), format!("{}: cannot write: disk on fire", path.display()));
+        assert_eq!(e.kind(), crate::ErrorKind::CannotWrite);
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(dir.path()), ["out.png"]);
+        write_atomic(&path, |f| f.write_all(b"new").map_err(|e| e.to_string())).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(names(dir.path()), ["out.png"]);
+    }
+
+    #[test]
+    fn refuses_targets_that_are_no_files() {
+        let dir = tempfile::tempdir().unwrap();
+        let ok = |_: &mut File| Ok(());
+        assert!(write_atomic(dir.path(), ok).unwrap_err().to_string().ends_with("it is a folder"));
+        let e = write_atomic(&dir.path().join("none/out.png"), ok).unwrap_err();
+        assert_eq!(e.kind(), crate::ErrorKind::CannotWrite);
+        #[cfg(unix)]
+        assert!(write_atomic(Path::new("/dev/null"), ok).unwrap_err().to_string().contains("not a regular"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn follows_links_and_keeps_permissions() {
+        use std::os::unix::fs::PermissionsExt;
+        let dir = tempfile::tempdir().unwrap();
+        let real = dir.path().join("real.png");
+        fs::write(&real, "old").unwrap();
+        fs::set_permissions(&real, fs::Permissions::from_mode(0o640)).unwrap();
+        let link = dir.path().join("link.png");
+        std::os::unix::fs::symlink(&real, &link).unwrap();
+        write_atomic(&link, |f| f.write_all(b"new").map_err(|e| e.to_string())).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&real).unwrap(), b"new");
+        assert_eq!(fs::metadata(&real).unwrap().permissions().mode() & 0o777, 0o640);
+    }
+
+    #[test]
+    fn reading_is_bounded_and_takes_files_only() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a");
+        fs::write(&path, [0u8; 10]).unwrap();
+        assert_eq!(read_file(&path, 10).unwrap().len(), 10);
+        assert_eq!(read_file(&path, 9).unwrap_err().kind(), crate::ErrorKind::BadData);
+        assert!(read_file(dir.path(), 9).unwrap_err().to_string().ends_with("it is a folder"));
+        let e = read_file(&dir.path().join("b"), 9).unwrap_err();
+        assert_eq!(e.kind(), crate::ErrorKind::CannotOpen);
+        #[cfg(unix)]
+        assert!(read_file(Path::new("/dev/zero"), 9).unwrap_err().to_string().contains("regular"));
+    }
+}

@@ -1,0 +1,70 @@
+//! Meshes, on all cores.
+
+use super::accessor::Accessors;
+use super::primitive;
+use crate::warnings::Warnings;
+use crate::{IoError, Limits};
+use gltf::json::mesh::Semantic;
+use gltf::json::validation::Checked;
+use lumbre_scene::{Mesh, Primitive};
+use rayon::prelude::*;
+
+/// Reads every mesh. Mesh `i` of the file becomes mesh `i` of the scene, so that nodes may share it.
+pub(super) fn load_all(accessors: &Accessors) -> Result<(Vec<Mesh>, Warnings), IoError> {
+    check_budget(accessors)?;
+    let meshes = &accessors.doc.root.meshes;
+    let jobs: Vec<_> = meshes
+        .iter()
+        .enumerate()
+        .flat_map(|(m, mesh)| (0..mesh.primitives.len()).map(move |p| (m, p)))
+        .collect();
+    // Results are gathered before the first error is looked for, so that it is always the same one.
+    let parts: Vec<Result<(Option<Primitive>, Warnings), IoError>> = jobs
+        .par_iter()
+        .map(|&(m, p)| {
+            let mut warnings = Warnings::default();
+            let place = format!("/meshes/{m}/primitives/{p}");
+            let part = primitive::load(accessors, &meshes[m].primitives[p], &place, &mut warnings)?;
+            Ok((part, warnings))
+        })
+        .collect();
+    let mut warnings = Warnings::default();
+    let named = |mesh: &gltf::json::Mesh| Mesh {
+        name: mesh.name.clone().unwrap_or_default(),
+        primitives: Vec::with_capacity(mesh.primitives.len()),
+    };
+    let mut out: Vec<Mesh> = meshes.iter().map(named).collect();
+    for ((m, _), part) in jobs.into_iter().zip(parts) {
+        let (primitive, said) = part?;
+        warnings.append(said);
+        out[m].primitives.extend(primitive);
+    }
+    Ok((out, warnings))
+}
+
+/// Adds up what the meshes claim to hold before any of it is read: many primitives may share one accessor, so that a small
+/// file can ask for much.
+fn check_budget(accessors: &Accessors) -> Result<(), IoError> {
+    let doc = accessors.doc;
+    let (mut vertices, mut corners) = (0u64, 0u64);
+    for (m, mesh) in doc.root.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let place = || format!("/meshes/{m}/primitives/{p}");
+            let Some(position) = primitive.attributes.get(&Checked::Valid(Semantic::Positions)) else {
+                continue;
+            };
+            let count = accessors.count(position.value(), &place)?;
+            let used = match primitive.indices {
+                Some(i) => accessors.count(i.value(), &place)?,
+                None => count,
+            };
+            vertices = vertices.saturating_add(count.min(used));
+            corners = corners.saturating_add(used);
+            let limits = doc.limits;
+            Limits::check(doc.path, &place(), "number of vertices", vertices, limits.max_vertices)?;
+            let most = limits.max_triangles.saturating_mul(3);
+            Limits::check(doc.path, &place(), "number of triangle corners", corners, most)?;
+        }
+    }
+    Ok(())
+}

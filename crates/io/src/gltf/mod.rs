@@ -1,0 +1,86 @@
+//! glTF 2.0 (Khronos Group 2021) to [`Scene`]. The `gltf` crate gives the JSON types only; its validator and importer are
+//! not used, because they panic on some wrong indices and follow paths out of the scene's folder.
+//!
+//! Extensions are read from the raw JSON (`json.rs`), all in the same way; `extensions.rs` lists them. Left out: skins,
+//! morph targets and animations (rest pose, with a warning), orthographic cameras, points and lines.
+
+mod accessor;
+mod buffers;
+mod container;
+mod document;
+mod extensions;
+mod images;
+mod json;
+mod lights;
+mod material;
+mod mesh;
+mod nodes;
+mod primitive;
+mod textures;
+mod uri;
+
+use crate::warnings::Warnings;
+use crate::{IoError, LoadOptions, Loaded};
+use accessor::Accessors;
+use buffers::Buffers;
+use document::Document;
+use lumbre_scene::{Environment, Scene};
+use std::path::Path;
+use textures::TextureTable;
+use uri::Resolver;
+
+/// Loads a binary glTF from its bytes; `path` is where they came from.
+pub(crate) fn load_glb(path: &Path, bytes: Vec<u8>, options: &LoadOptions) -> Result<Loaded, IoError> {
+    let mut warnings = Warnings::default();
+    let parts = container::split(path, &bytes, &mut warnings)?;
+    load(path, parts.json, parts.bin, options, warnings)
+}
+
+/// Loads a glTF from its JSON text.
+pub(crate) fn load_json(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Loaded, IoError> {
+    load(path, bytes, None, options, Warnings::default())
+}
+
+fn load(
+    path: &Path,
+    json: &[u8],
+    bin: Option<&[u8]>,
+    options: &LoadOptions,
+    mut warnings: Warnings,
+) -> Result<Loaded, IoError> {
+    let doc = Document::parse(path, json, &options.limits)?;
+    extensions::check(&doc, &mut warnings)?;
+    doc.warn_of_motion(&mut warnings);
+    let resolver = Resolver::new(path)?;
+    let buffers = Buffers::load(&doc, &resolver, bin)?;
+
+    // What is small comes first, in order; it says which images are needed.
+    let mut table = TextureTable::default();
+    let materials = material::load_all(&doc, &mut table, &mut warnings)?;
+    let lights = lights::load_all(&doc, &mut warnings)?;
+    let graph = nodes::load(&doc, lights.len(), &mut warnings)?;
+
+    // Then what is large, on all cores.
+    let accessors = Accessors { doc: &doc, buffers: &buffers };
+    let (images, meshes) = rayon::join(
+        || images::load_all(&doc, &buffers, &resolver, table.images()),
+        || mesh::load_all(&accessors),
+    );
+    let (meshes, mesh_warnings) = meshes?;
+    let images = images?;
+    warnings.append(mesh_warnings);
+
+    let scene = Scene {
+        name: path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
+        meshes,
+        materials,
+        textures: table.textures,
+        images,
+        lights,
+        cameras: graph.cameras,
+        nodes: graph.nodes,
+        roots: graph.roots,
+        environment: Environment::default(),
+    };
+    Ok(Loaded { scene, warnings: warnings.into_lines() })
+}

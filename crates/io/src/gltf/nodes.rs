@@ -1,0 +1,200 @@
+//! The node graph and its cameras.
+
+use super::document::Document;
+use super::json::Object;
+use super::lights;
+use crate::IoError;
+use crate::warnings::Warnings;
+use glam::{Mat4, Quat, Vec3, Vec4};
+use gltf::json::validation::Checked;
+use lumbre_scene::{Camera, CameraId, LightId, MeshId, Node, NodeId, Projection};
+
+/// What `load` finds.
+pub(super) struct Graph {
+    pub(super) nodes: Vec<Node>,
+    pub(super) roots: Vec<NodeId>,
+    pub(super) cameras: Vec<Camera>,
+}
+
+/// Reads nodes, cameras and the scene to show. Node `i` of the file becomes node `i` of the scene.
+pub(super) fn load(doc: &Document, light_count: usize, warnings: &mut Warnings) -> Result<Graph, IoError> {
+    let (mut cameras, camera_ids) = load_cameras(doc, warnings)?;
+    let mut nodes = Vec::with_capacity(doc.root.nodes.len());
+    for i in 0..doc.root.nodes.len() {
+        nodes.push(load_node(doc, i, (light_count, &camera_ids), warnings)?);
+    }
+    let parentless = check_trees(doc, &nodes)?;
+    let roots = load_roots(doc, parentless, warnings)?;
+    // Most cameras are named by their node only.
+    for node in &nodes {
+        if let Some(camera) = node.camera.and_then(|c| cameras.get_mut(c.index()))
+            && camera.name.is_empty()
+        {
+            camera.name.clone_from(&node.name);
+        }
+    }
+    Ok(Graph { nodes, roots, cameras })
+}
+
+/// Perspective cameras, and for each camera of the file which one it became.
+fn load_cameras(
+    doc: &Document,
+    warnings: &mut Warnings,
+) -> Result<(Vec<Camera>, Vec<Option<CameraId>>), IoError> {
+    use gltf::json::camera::Type;
+    let (mut cameras, mut ids) = (Vec::new(), Vec::new());
+    for (i, json) in doc.root.cameras.iter().enumerate() {
+        let place = format!("/cameras/{i}");
+        match (&json.type_, &json.perspective) {
+            (Checked::Valid(Type::Perspective), Some(p)) => {
+                if !(p.yfov > 0.0 && p.yfov < std::f32::consts::PI) {
+                    let why = format!("yfov {} is not between 0 and π", p.yfov);
+                    return Err(doc.error(place + "/perspective", why));
+                }
+                let aspect = p.aspect_ratio.filter(|a| a.is_finite() && *a > 0.0);
+                if aspect != p.aspect_ratio {
+                    warnings.add(&place, "the aspect ratio is not positive and is ignored");
+                }
+                ids.push(Some(CameraId(cameras.len() as u32)));
+                cameras.push(Camera {
+                    name: json.name.clone().unwrap_or_default(),
+                    projection: Projection::Perspective { yfov: p.yfov, aspect },
+                    lens_radius: 0.0,
+                    focus_distance: 1.0,
+                });
+            }
+            (Checked::Valid(Type::Orthographic), _) => {
+                warnings.add(&place, "orthographic cameras are not supported and are skipped");
+                ids.push(None);
+            }
+            _ => return Err(doc.error(place, "is neither a perspective nor an orthographic camera")),
+        }
+    }
+    Ok((cameras, ids))
+}
+
+fn load_node(
+    doc: &Document,
+    index: usize,
+    (light_count, cameras): (usize, &[Option<CameraId>]),
+    warnings: &mut Warnings,
+) -> Result<Node, IoError> {
+    let json = &doc.root.nodes[index];
+    let place = format!("/nodes/{index}");
+    let mut node = Node {
+        name: json.name.clone().unwrap_or_default(),
+        transform: transform(doc, json, &place, warnings)?,
+        ..Node::default()
+    };
+    for child in json.children.iter().flatten() {
+        doc.item(&doc.root.nodes, child.value(), "node", &|| format!("{place}/children"))?;
+        node.children.push(NodeId(child.value() as u32));
+    }
+    if let Some(mesh) = json.mesh {
+        doc.item(&doc.root.meshes, mesh.value(), "mesh", &|| format!("{place}/mesh"))?;
+        node.mesh = Some(MeshId(mesh.value() as u32));
+    }
+    if let Some(camera) = json.camera {
+        node.camera = *doc.item(cameras, camera.value(), "camera", &|| format!("{place}/camera"))?;
+    }
+    let value = json.extensions.as_ref().and_then(|e| e.others.get(lights::NAME));
+    let extension = Object::new(doc, value, || format!("{place}/extensions/{}", lights::NAME))?;
+    if let Some(light) = extension.map(|o| o.index("light")).transpose()?.flatten() {
+        if light >= light_count {
+            let why = format!("refers to light {light}, but there are {light_count}");
+            return Err(doc.error(place, why));
+        }
+        node.light = Some(LightId(light as u32));
+    }
+    Ok(node)
+}
+
+/// The node's transform: its matrix, or translation · rotation · scale.
+fn transform(
+    doc: &Document,
+    json: &gltf::json::Node,
+    place: &str,
+    warnings: &mut Warnings,
+) -> Result<Mat4, IoError> {
+    let mut matrix = match json.matrix {
+        Some(m) => Mat4::from_cols_array(&m),
+        None => {
+            let [x, y, z, w] = json.rotation.map_or([0.0, 0.0, 0.0, 1.0], |r| r.0);
+            let length = Vec4::new(x, y, z, w).length();
+            let rotation = if length > 1e-6 && length.is_finite() {
+                Quat::from_xyzw(x / length, y / length, z / length, w / length)
+            } else {
+                warnings.add(place, "a rotation that is no quaternion is ignored");
+                Quat::IDENTITY
+            };
+            let scale = json.scale.map_or(Vec3::ONE, Vec3::from);
+            let translation = json.translation.map_or(Vec3::ZERO, Vec3::from);
+            Mat4::from_scale_rotation_translation(scale, rotation, translation)
+        }
+    };
+    if !matrix.is_finite() {
+        return Err(doc.error(place, "its transform is not finite"));
+    }
+    if matrix.row(3) != Vec4::W {
+        warnings.add(place, "a projective matrix is not supported; its last row is ignored");
+        matrix.x_axis.w = 0.0;
+        matrix.y_axis.w = 0.0;
+        matrix.z_axis.w = 0.0;
+        matrix.w_axis.w = 1.0;
+    }
+    Ok(matrix)
+}
+
+/// Checks that the nodes form trees (glTF 2.0, 3.5.2); returns those without a parent.
+fn check_trees(doc: &Document, nodes: &[Node]) -> Result<Vec<NodeId>, IoError> {
+    let mut parent = vec![None; nodes.len()];
+    for (i, node) in nodes.iter().enumerate() {
+        for child in &node.children {
+            if let Some(other) = parent[child.index()].replace(i) {
+                let why = format!("has two parents, nodes {other} and {i}; nodes must form trees");
+                return Err(doc.error(format!("/nodes/{}", child.0), why));
+            }
+        }
+    }
+    let roots: Vec<NodeId> =
+        (0..nodes.len() as u32).map(NodeId).filter(|n| parent[n.index()].is_none()).collect();
+    // With one parent each, what no root reaches runs in circles.
+    let mut reached = vec![false; nodes.len()];
+    let mut stack = roots.clone();
+    while let Some(id) = stack.pop() {
+        reached[id.index()] = true;
+        stack.extend(&nodes[id.index()].children);
+    }
+    match reached.iter().position(|r| !r) {
+        Some(i) => Err(doc.error(format!("/nodes/{i}"), "is its own ancestor; nodes must form trees")),
+        None => Ok(roots),
+    }
+}
+
+/// The nodes to show: the default scene's, else the first one's, else all without a parent.
+fn load_roots(
+    doc: &Document,
+    parentless: Vec<NodeId>,
+    warnings: &mut Warnings,
+) -> Result<Vec<NodeId>, IoError> {
+    let scenes = &doc.root.scenes;
+    let index = match doc.root.scene {
+        Some(i) => i.value(),
+        None if scenes.is_empty() => return Ok(parentless),
+        None => 0,
+    };
+    let scene = doc.item(scenes, index, "scene", &|| "/scene".into())?;
+    if scenes.len() > 1 {
+        warnings.add("/scenes", format!("there are {}; scene {index} is shown", scenes.len()));
+    }
+    let mut roots = Vec::with_capacity(scene.nodes.len());
+    let mut listed = vec![false; doc.root.nodes.len()];
+    for node in &scene.nodes {
+        let at = || format!("/scenes/{index}/nodes");
+        doc.item(&doc.root.nodes, node.value(), "node", &at)?;
+        if !std::mem::replace(&mut listed[node.value()], true) {
+            roots.push(NodeId(node.value() as u32));
+        }
+    }
+    Ok(roots)
+}
