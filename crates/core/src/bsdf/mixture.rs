@@ -297,5 +297,5 @@ impl Bsdf {
 /// Clamps to [0, 1]; NaN becomes 0.
 #[inline]
 fn unit_interval(x: f32) -> f32 {
-    x.max(0.0).min(1.0)
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
