@@ -146,7 +146,7 @@ fn triangle_list(mode: Mode, corners: Vec<u32>, place: &str, warnings: &mut Warn
         Mode::TriangleFan => (0..triangles).flat_map(|i| [at(i + 1), at(i + 2), at(0)]).collect(),
         _ => {
             let mut corners = corners;
-            if corners.len() % 3 != 0 {
+            if !corners.len().is_multiple_of(3) {
                 warnings.add(place, "corners that do not fill a triangle are ignored");
                 corners.truncate(corners.len() / 3 * 3);
             }

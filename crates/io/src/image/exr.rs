@@ -110,8 +110,8 @@ fn assemble(image: ExrImage) -> Result<Image<Layer<AnyChannels<FlatSamples>>>, S
     if let Some(two) = channels.list.windows(2).find(|two| two[0].name == two[1].name) {
         return Err(format!("there are two channels {}", two[0].name));
     }
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = Some(Text::from("Lumbre"));
+    let software_name = Some(Text::from("Lumbre"));
+    let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
     for (name, value) in image.metadata {
         let key = text(&name, 255).ok_or_else(|| format!("{name:?} cannot name an attribute"))?;
         // What Latin-1 lacks cannot be stored.
@@ -240,7 +240,7 @@ fn disassemble(image: FlatImage) -> ExrImage {
 pub(super) fn linear(path: &Path, image: ExrImage, layer: Option<&str>) -> Result<LinearImage, IoError> {
     let names = || image.layers.iter().map(|l| format!("{:?}", l.name)).collect::<Vec<_>>().join(", ");
     let found = match layer {
-        Some(name) => image.layers.iter().find(|l| l.name == name).and_then(|l| colors(l)),
+        Some(name) => image.layers.iter().find(|l| l.name == name).and_then(colors),
         None => image.layers.iter().find_map(colors),
     };
     let Some(pixels) = found else {

@@ -3,7 +3,8 @@
 use super::LinearImage;
 use crate::{IoError, Limits};
 use ::image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
-use lumbre_core::{Rgb, math};
+use lumbre_core::Rgb;
+use lumbre_core::color::{srgb_decode, srgb_decode_table};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -78,16 +79,11 @@ pub(crate) fn decode_linear(bytes: &[u8], path: &Path, limits: &Limits) -> Resul
     let (width, height) = (image.width(), image.height());
     let wide = image.color().bytes_per_pixel() / image.color().channel_count() > 1;
     let pixels = if wide {
-        let one = |v: u16| srgb_to_linear(f32::from(v) / 65535.0);
+        let one = |v: u16| srgb_decode(f32::from(v) / 65535.0);
         image.into_rgb16().pixels().map(|p| Rgb::from_array(p.0.map(one))).collect()
     } else {
-        let table: [f32; 256] = std::array::from_fn(|v| srgb_to_linear(v as f32 / 255.0));
+        let table = srgb_decode_table();
         image.into_rgb8().pixels().map(|p| Rgb::from_array(p.0.map(|v| table[v as usize]))).collect()
     };
     Ok(LinearImage { width, height, pixels })
-}
-
-/// IEC 61966-2-1:1999, from the encoded value in 0 to 1.
-fn srgb_to_linear(v: f32) -> f32 {
-    if v <= 0.04045 { v / 12.92 } else { math::pow((v + 0.055) / 1.055, 2.4) }
 }
