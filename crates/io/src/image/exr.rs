@@ -5,8 +5,8 @@
 //! tev and Blender show the dotted names as layers. A file of several parts hides all but the first from many of them.
 
 use super::LinearImage;
-use super::exr_header;
-use crate::{IoError, Limits, files};
+use super::{exr_dwa, exr_header};
+use crate::{IoError, Limits, files, guard};
 use ::exr::block;
 use ::exr::image::read::read;
 use ::exr::image::write::WritableImage;
@@ -158,16 +158,15 @@ pub(super) fn decode(path: &Path, bytes: &[u8], limits: &Limits) -> Result<ExrIm
         ::exr::error::Error::NotSupported(what) => IoError::unsupported(path, "", what),
         other => IoError::data(path, "", format!("not a sound EXR: {other}")),
     };
-    let chunks = block::read(Cursor::new(bytes), false).map_err(failed)?;
-    check_headers(path, chunks.headers(), bytes.len(), limits)?;
-    let image: FlatImage = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .all_layers()
-        .all_attributes()
-        .from_chunks(chunks)
-        .map_err(failed)?;
+    let image = guard::decode(path, || {
+        let chunks = block::read(Cursor::new(bytes), false).map_err(failed)?;
+        check_headers(path, chunks.headers(), bytes.len(), limits)?;
+        exr_dwa::check(bytes, chunks.headers()).map_err(failed)?;
+        let reader = read().no_deep_data().largest_resolution_level().all_channels().all_layers();
+        // On this thread: a panic in one of the crate's own would end the process.
+        let image: FlatImage = reader.all_attributes().non_parallel().from_chunks(chunks).map_err(failed)?;
+        Ok(image)
+    })?;
     Ok(disassemble(image))
 }
 

@@ -119,9 +119,14 @@ impl Gltf {
     pub fn glb(&self) -> Vec<u8> {
         let mut doc = self.doc.clone();
         doc["buffers"] = json!([{"byteLength": self.bytes.len()}]);
-        let mut text = doc.to_string().into_bytes();
+        Self::wrap(doc.to_string().as_bytes(), &self.bytes)
+    }
+
+    /// A .glb of this text and these bytes.
+    pub fn wrap(text: &[u8], bytes: &[u8]) -> Vec<u8> {
+        let mut text = text.to_vec();
         text.resize(text.len().next_multiple_of(4), b' ');
-        let mut bin = self.bytes.clone();
+        let mut bin = bytes.to_vec();
         bin.resize(bin.len().next_multiple_of(4), 0);
         let mut out = b"glTF\x02\0\0\0".to_vec();
         out.extend((12 + 8 + text.len() as u32 + 8 + bin.len() as u32).to_le_bytes());
