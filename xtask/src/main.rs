@@ -1,2 +1,46 @@
-//! The project's own chores.
-fn main() {}
+//! The project's own chores: `cargo xtask CHORE`. Each chore is one file; CI calls these and nothing else.
+#![forbid(unsafe_code)]
+
+mod check;
+mod command;
+mod licences;
+mod lint;
+mod tree;
+mod typos;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+cargo xtask CHORE
+
+check           fmt, lint, typos, licences, clippy and rustdoc, warnings being errors
+test [ARGS]     cargo test
+lint            rules of this project: crate dependencies, unsafe, sizes, forbidden calls
+typos           spelling of .rs, .md and .toml files
+licences        licences of all dependencies
+";
+
+fn main() -> ExitCode {
+    let mut args = std::env::args().skip(1);
+    let chore = args.next().unwrap_or_default();
+    let rest: Vec<String> = args.collect();
+    let done = match (chore.as_str(), rest.is_empty()) {
+        ("test", _) => command::cargo("test", &rest, &[]),
+        ("check", true) => check::run(),
+        ("lint", true) => lint::run(),
+        ("typos", true) => typos::run(),
+        ("licences", true) => licences::run(),
+        ("" | "help" | "--help" | "-h", _) => {
+            print!("{HELP}");
+            Ok(())
+        }
+        _ => Err(format!("no such chore: {chore} {}\n\n{HELP}", rest.join(" "))),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{}", message.trim_end());
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -6,14 +6,17 @@
 pub mod bsdf;
 pub mod camera;
 pub mod color;
+pub mod control;
 pub mod distribution;
 pub mod film;
 pub mod filter;
 pub mod frame;
+pub mod fresnel;
 pub mod hash;
 pub mod light;
 pub mod math;
 pub mod medium;
+pub mod microfacet;
 pub mod mis;
 pub mod ray;
 pub mod rgb;

@@ -76,6 +76,12 @@ impl MediumStack {
         }
     }
 
+    /// Crosses the boundary of the solid of `material`: from its front side into `beyond`, or out of it.
+    #[inline]
+    pub fn cross(&mut self, beyond: Medium, material: u32, front: bool) {
+        if front { self.enter(beyond) } else { self.leave(material) }
+    }
+
     /// Leaves the innermost solid of this material, if the path is inside one.
     #[inline]
     pub fn leave(&mut self, material: u32) {

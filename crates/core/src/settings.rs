@@ -1,5 +1,7 @@
 //! What the integrators of every backend honour.
 
+use crate::bsdf::DiffuseSampling;
+use crate::camera::Camera;
 use crate::filter::FilterKind;
 use crate::sampler::SamplerKind;
 
@@ -15,16 +17,6 @@ pub enum TransmissiveShadows {
     Physical,
     /// Solids let all light through straight, and caustics through them are left out.
     Straight,
-}
-
-/// How a Lambert lobe draws its directions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum HemisphereSampling {
-    /// In proportion to the cosine (Malley).
-    #[default]
-    Cosine,
-    /// Uniformly: for comparison only.
-    Uniform,
 }
 
 /// Settings of a path traced render.
@@ -44,8 +36,8 @@ pub struct RenderSettings {
     pub light_sampling: bool,
     /// Shadow rays at glass.
     pub transmissive_shadows: TransmissiveShadows,
-    /// Debug switch.
-    pub hemisphere: HemisphereSampling,
+    /// How diffuse directions are drawn.
+    pub diffuse_sampling: DiffuseSampling,
     /// Camera rays see the back faces of single-sided opaque materials too.
     pub shade_back_faces: bool,
 }
@@ -65,8 +57,19 @@ impl Default for RenderSettings {
             filter: FilterKind::default(),
             light_sampling: true,
             transmissive_shadows: TransmissiveShadows::Auto,
-            hemisphere: HemisphereSampling::Cosine,
+            diffuse_sampling: DiffuseSampling::Cosine,
             shade_back_faces: false,
         }
     }
+}
+
+/// What is drawn: from where, and how.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// Camera.
+    pub camera: Camera,
+    /// Settings.
+    pub settings: RenderSettings,
+    /// Number of the frame: part of the random stream.
+    pub frame: u32,
 }

@@ -1,1 +1,17 @@
-//! Under construction.
+//! The CPU backend of Lumbre: a wide SIMD BVH, the path tracer, and the tiles it works in.
+//!
+//! `unsafe` lives in the SIMD kernels of [`bvh`] and nowhere else.
+#![deny(unsafe_code)]
+
+pub mod backend;
+#[allow(unsafe_code, reason = "SIMD kernels and the dispatch to them")]
+pub mod bvh;
+pub mod interaction;
+pub mod light_sampling;
+pub mod observer;
+pub mod path;
+pub mod shadow;
+pub mod surface;
+pub mod tracer;
+
+pub use backend::CpuBackend;

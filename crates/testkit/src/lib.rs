@@ -1,1 +1,6 @@
-//! Under construction.
+//! Test tools of Lumbre: statistical tests of samplers and models, reference quadratures, scene builders.
+
+pub mod bsdf_rows;
+pub mod bsdf_tables;
+pub mod chi_square;
+pub mod furnace;

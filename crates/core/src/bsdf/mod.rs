@@ -1,6 +1,29 @@
 //! Scattering at a surface. One file per model; the local frame has the shading normal at +z.
 //!
-//! `wo` points to the camera side, `wi` is the sampled side. Both are unit and point away from the surface.
+//! `wo` points to the camera side, `wi` is the sampled side. Both are unit and point away from the surface. The side the ray came
+//! from is always +z: callers turn the frame. [`Bsdf`] is the closed form integrators use: the weighted mixture of glTF's
+//! metallic-roughness model with transmission.
+//!
+//! | model | file | choice of direction |
+//! |---|---|---|
+//! | diffuse | [`lambert`] | cosine |
+//! | metal | [`metal`] | visible normals + compensation |
+//! | opaque dielectric | [`dielectric_base`] | visible normals + cosine |
+//! | boundary of a solid | [`dielectric`] | visible normals, Fresnel |
+//! | thin wall | [`thin`] | visible normals + compensation, Fresnel |
+
+pub mod albedo;
+mod albedo_data;
+pub mod compensation;
+pub mod dielectric;
+pub mod dielectric_base;
+pub mod lambert;
+pub mod metal;
+mod mixture;
+pub mod thin;
+
+pub use lambert::DiffuseSampling;
+pub use mixture::{Bsdf, BsdfParams};
 
 use crate::math::Vec3;
 use crate::rgb::Spectrum;
@@ -57,4 +80,23 @@ pub struct BsdfSample {
     pub lobe: Lobe,
     /// (ηi/ηt)² scaling already inside `weight`: 1 for reflection; roulette divides it out.
     pub eta_scale: f32,
+}
+
+impl BsdfSample {
+    #[inline]
+    fn new(wi: Vec3, weight: Spectrum, pdf: f32, lobe: Lobe) -> Self {
+        BsdfSample { wi, weight, pdf, lobe, eta_scale: 1.0 }
+    }
+
+    /// From f · |cos θi| and a density; `None` where the density vanishes.
+    #[inline]
+    fn smooth(wi: Vec3, f: Spectrum, pdf: f32, lobe: Lobe) -> Option<Self> {
+        (pdf > 0.0).then(|| BsdfSample::new(wi, f / pdf, pdf, lobe))
+    }
+
+    /// From the weight of a delta lobe and the probability of having chosen it.
+    #[inline]
+    fn delta(wi: Vec3, value: Spectrum, prob: f32, lobe: Lobe) -> Self {
+        BsdfSample::new(wi, value / prob, prob, lobe)
+    }
 }

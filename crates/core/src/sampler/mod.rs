@@ -45,7 +45,7 @@ pub struct DirectionSample {
 
 /// The numbers that choose a light and a point on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightSample2 {
+pub struct LightPointSample {
     /// Point on the light.
     pub point: [f32; 2],
     /// Which light.
@@ -90,9 +90,9 @@ impl Sampler {
 
     /// The numbers that pick a point on a light from vertex `k`.
     #[inline]
-    pub fn light(&self, k: u32) -> LightSample2 {
+    pub fn light(&self, k: u32) -> LightPointSample {
         let s = self.set(CAMERA_SETS + VERTEX_SETS * k + 1);
-        LightSample2 { point: [s[0], s[1]], light: s[2] }
+        LightPointSample { point: [s[0], s[1]], light: s[2] }
     }
 
     /// The key that stochastic coverage hashes together with vertex, instance and primitive.

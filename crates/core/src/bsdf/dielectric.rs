@@ -1,0 +1,144 @@
+//! The boundary of a solid, clear dielectric: reflection and refraction, smooth or rough.
+//!
+//! Walter et al. 2007 with the exact unpolarised Fresnel law, visible normals sampled (Heitz 2018); their i is our wo, their o our
+//! wi. `eta` is the index on the other side over the index on the side of `wo`, which is always +z. The base colour tints what crosses.
+//!
+//! In [`TransportMode::Radiance`] what crosses is scaled by (ηi/ηt)² = 1/eta², as radiance is compressed into a narrower
+//! cone (Veach 1997, 5.2). Light scattered more than once between microfacets is left out: the white
+//! furnace of a rough boundary lies between its tested lower bound (testkit `bsdf_energy`) and 1.
+
+use super::compensation::Rough;
+use super::{BsdfSample, Lobe, TransportMode};
+use crate::fresnel::{dielectric, dielectric_refracted, refract};
+use crate::math::Vec3;
+use crate::microfacet::{Ggx, reflect};
+use crate::rgb::Spectrum;
+
+/// Below this value of α |eta - 1| the boundary counts as smooth: refraction spreads less than anything resolved, and half
+/// vectors lose their digits.
+const SMOOTH_SPREAD: f32 = 1e-4;
+
+/// A boundary between two clear media.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dielectric {
+    eta: f32,
+    tint: Spectrum,
+    rough: Option<Ggx>,
+}
+
+impl Dielectric {
+    /// `eta` > 0: index beyond over index on the side of `wo`; `tint` in [0, 1] per crossing.
+    #[inline]
+    pub fn new(eta: f32, tint: Spectrum, rough: Option<Rough>) -> Self {
+        let rough = rough.map(|r| r.ggx).filter(|g| g.alpha_x * (eta - 1.0).abs() >= SMOOTH_SPREAD);
+        Dielectric { eta, tint, rough }
+    }
+
+    /// True when it scatters by a density rather than into two directions.
+    #[inline]
+    pub fn is_smooth_lobe(&self) -> bool {
+        self.rough.is_some()
+    }
+
+    /// Reflected plus transmitted part at normal incidence.
+    #[inline]
+    pub fn albedo(&self) -> Spectrum {
+        Spectrum::WHITE.lerp(self.tint, 1.0 - dielectric(1.0, self.eta))
+    }
+
+    /// What passes when the ray is let straight through: tint and Fresnel at the angle in the thinner medium, on whichever side the
+    /// ray is, so that entering and leaving a parallel body count alike. Black when rough.
+    #[inline]
+    pub fn straight_transmittance(&self, cos: f32) -> Spectrum {
+        if self.rough.is_some() {
+            return Spectrum::BLACK;
+        }
+        self.tint * (1.0 - dielectric(cos, self.eta.max(1.0 / self.eta)))
+    }
+
+    /// Scale of radiance across the boundary.
+    #[inline]
+    fn eta_scale(&self, mode: TransportMode) -> f32 {
+        match mode {
+            TransportMode::Radiance => 1.0 / (self.eta * self.eta),
+            TransportMode::Importance => 1.0,
+        }
+    }
+
+    /// f · |cos θi| and density. Directions as in [`super::Bsdf`], `wo.z > 0`.
+    #[inline]
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
+        let black = (Spectrum::BLACK, 0.0);
+        let Some(ggx) = &self.rough else { return black };
+        if wi.z > 0.0 {
+            let m = (wo + wi).normalize();
+            let (f, pdf) = ggx.reflection(wo, wi, m);
+            let fresnel = dielectric(wo.dot(m), self.eta);
+            (Spectrum::splat(fresnel * f), fresnel * pdf)
+        } else if wi.z < 0.0 {
+            self.refraction(ggx, wo, wi, mode)
+        } else {
+            black
+        }
+    }
+
+    /// Walter et al. 2007, eq. 16, 17, 21.
+    #[inline]
+    fn refraction(&self, ggx: &Ggx, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
+        let h = wo + wi * self.eta;
+        let len2 = h.length_squared();
+        if len2 < 1e-18 {
+            return (Spectrum::BLACK, 0.0);
+        }
+        let m = h * (1.0f32.copysign(h.z) / len2.sqrt());
+        let (cos_o, cos_i) = (wo.dot(m), -wi.dot(m));
+        // Facets seen from behind on either side do not refract between these directions.
+        if cos_o <= 0.0 || cos_i <= 0.0 {
+            return (Spectrum::BLACK, 0.0);
+        }
+        let passed = 1.0 - dielectric(cos_o, self.eta);
+        // d ωm / d ωi; the denominator (wo·m + eta wi·m)² is the squared length of the unnormalised half vector.
+        let jacobian = self.eta * self.eta * cos_i / len2;
+        let pdf = ggx.pdf_visible_normal(wo, m) * passed * jacobian;
+        let f = pdf * ggx.g1(wi) * self.eta_scale(mode);
+        (self.tint * f, pdf)
+    }
+
+    /// Draws a direction; Fresnel's reflectance chooses between the two sides.
+    #[inline]
+    pub fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2], mode: TransportMode) -> Option<BsdfSample> {
+        let Some(ggx) = &self.rough else { return Some(self.sample_smooth(wo, u_lobe, mode)) };
+        let m = ggx.sample_visible_normal(wo, u);
+        let (fresnel, cos_t) = dielectric_refracted(wo.dot(m).clamp(0.0, 1.0), self.eta);
+        if u_lobe < fresnel {
+            let wi = reflect(wo, m);
+            if wi.z <= 0.0 {
+                return None;
+            }
+            let (f, pdf) = self.eval_pdf(wo, wi, mode);
+            return BsdfSample::smooth(wi, f, pdf, Lobe::GlossyReflection);
+        }
+        let wi = refract(wo, m, cos_t, self.eta).normalize();
+        if wi.z >= 0.0 {
+            return None;
+        }
+        let (f, pdf) = self.refraction(ggx, wo, wi, mode);
+        let sample = BsdfSample::smooth(wi, f, pdf, Lobe::GlossyTransmission)?;
+        Some(BsdfSample { eta_scale: self.eta_scale(mode), ..sample })
+    }
+
+    #[inline]
+    fn sample_smooth(&self, wo: Vec3, u_lobe: f32, mode: TransportMode) -> BsdfSample {
+        let (fresnel, cos_t) = dielectric_refracted(wo.z.min(1.0), self.eta);
+        if u_lobe < fresnel {
+            let wi = Vec3::new(-wo.x, -wo.y, wo.z);
+            return BsdfSample::delta(wi, Spectrum::splat(fresnel), fresnel, Lobe::SpecularReflection);
+        }
+        let inv = 1.0 / self.eta;
+        let wi = Vec3::new(-wo.x * inv, -wo.y * inv, -cos_t);
+        let eta_scale = self.eta_scale(mode);
+        let passed = 1.0 - fresnel;
+        let weight = self.tint * (passed * eta_scale);
+        BsdfSample { eta_scale, ..BsdfSample::delta(wi, weight, passed, Lobe::SpecularTransmission) }
+    }
+}

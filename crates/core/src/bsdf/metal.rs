@@ -1,0 +1,107 @@
+//! Metal: GGX reflection whose reflectance runs from the base colour at normal incidence to 1 at grazing incidence (glTF 2.0,
+//! appendix B: Schlick), plus the light of multiple scattering (Kulla and Conty 2017).
+//!
+//! Perfectly smooth below [`crate::microfacet::ALPHA_SMOOTH`]: a mirror. Left out: measured eta and k.
+
+use super::albedo::Directional;
+use super::compensation::{Compensation, Rough, multiple_scattering};
+use super::{BsdfSample, Lobe};
+use crate::fresnel::{SCHLICK_AVERAGE, schlick};
+use crate::math::Vec3;
+use crate::microfacet::reflect;
+use crate::rgb::Spectrum;
+
+/// A metal interface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Metal {
+    f0: Spectrum,
+    rough: Option<RoughMetal>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct RoughMetal {
+    surface: Rough,
+    compensation: Compensation,
+    /// What multiple scattering keeps, per band.
+    f_ms: Spectrum,
+}
+
+impl Metal {
+    /// `f0` in [0, 1] per band; `rough` is `None` for a mirror.
+    #[inline]
+    pub fn new(f0: Spectrum, rough: Option<Rough>) -> Self {
+        let rough = rough.map(|surface| RoughMetal {
+            surface,
+            compensation: Compensation::new(surface.albedo),
+            f_ms: multiple_scattering(average_reflectance(f0), surface.albedo.average().deficit),
+        });
+        Metal { f0, rough }
+    }
+
+    /// True when it scatters by a density rather than as a mirror.
+    #[inline]
+    pub fn is_smooth_lobe(&self) -> bool {
+        self.rough.is_some()
+    }
+
+    /// Hemispherical reflectance, approximately.
+    #[inline]
+    pub fn albedo(&self) -> Spectrum {
+        average_reflectance(self.f0)
+    }
+
+    /// f · cos θi and density. Directions as in [`super::Bsdf`], `wo.z > 0`.
+    #[inline]
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        match &self.rough {
+            Some(rough) if wi.z > 0.0 => rough.eval_pdf(self.f0, wo, wi),
+            _ => (Spectrum::BLACK, 0.0),
+        }
+    }
+
+    /// Draws a direction.
+    #[inline]
+    pub fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<BsdfSample> {
+        let Some(rough) = &self.rough else {
+            let wi = Vec3::new(-wo.x, -wo.y, wo.z);
+            return Some(BsdfSample::delta(wi, schlick(self.f0, 1.0, wo.z), 1.0, Lobe::SpecularReflection));
+        };
+        let at_o = rough.surface.albedo.directional(wo.z);
+        let wi = if u_lobe < rough.prob_multiple(self.f0, at_o) {
+            rough.compensation.sample(u)
+        } else {
+            reflect(wo, rough.surface.ggx.sample_visible_normal(wo, u))
+        };
+        if wi.z <= 0.0 {
+            return None;
+        }
+        let (f, pdf) = rough.eval_pdf(self.f0, wo, wi);
+        BsdfSample::smooth(wi, f, pdf, Lobe::GlossyReflection)
+    }
+}
+
+impl RoughMetal {
+    /// Probability of drawing from the multiple scattering lobe: its share of the reflected light.
+    #[inline]
+    fn prob_multiple(&self, f0: Spectrum, at_o: Directional) -> f32 {
+        let multiple = at_o.deficit * self.f_ms.average();
+        let single = at_o.reflected(f0.average(), 1.0);
+        let sum = multiple + single;
+        if sum > 0.0 { multiple / sum } else { 0.0 }
+    }
+
+    #[inline]
+    fn eval_pdf(&self, f0: Spectrum, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let at_o = self.surface.albedo.directional(wo.z);
+        let m = (wo + wi).normalize();
+        let (single, pdf_single) = self.surface.ggx.reflection(wo, wi, m);
+        let f = schlick(f0, 1.0, wo.dot(m)) * single + self.f_ms * self.compensation.eval(at_o.deficit, wi.z);
+        let p = self.prob_multiple(f0, at_o);
+        (f, (1.0 - p) * pdf_single + p * self.compensation.pdf(wi.z))
+    }
+}
+
+#[inline]
+fn average_reflectance(f0: Spectrum) -> Spectrum {
+    f0 * (1.0 - SCHLICK_AVERAGE) + Spectrum::splat(SCHLICK_AVERAGE)
+}

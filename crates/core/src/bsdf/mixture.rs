@@ -1,0 +1,301 @@
+//! The surface as integrators see it: a mixture of metal, opaque dielectric and transmissive dielectric with fixed weights
+//! (glTF 2.0 appendix B, KHR_materials_transmission, _volume, _ior, _specular).
+//!
+//! weight = metallic; (1 - metallic)(1 - transmission); (1 - metallic) transmission. One component is chosen, by its weight times an
+//! estimate of its albedo; its smooth lobes are then weighted with the density of all components (one-sample model, Veach 1997, 9.2.4).
+//! Room is left for layers over the mixture (coat, sheen) and for anisotropy in [`crate::microfacet::Ggx`].
+
+use super::compensation::Rough;
+use super::dielectric::Dielectric;
+use super::dielectric_base::DielectricBase;
+use super::lambert::DiffuseSampling;
+use super::metal::Metal;
+use super::thin::Thin;
+use super::{BsdfSample, TransportMode};
+use crate::fresnel::f0_from_ior;
+use crate::math::{ONE_MINUS_EPSILON, Vec3};
+use crate::rgb::Spectrum;
+
+/// Rays closer to the surface than this cosine do not scatter: half vectors would lose all digits.
+const MIN_COS: f32 = 1e-6;
+
+/// Added to each component's albedo when choosing, so that none with weight is ever out of reach.
+const ALBEDO_FLOOR: f32 = 0.05;
+
+/// The values of a material at one point. Factors are clamped to [0, 1]; NaN counts as 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BsdfParams {
+    /// Diffuse albedo, metal reflectance at normal incidence, tint of what is transmitted.
+    pub base_color: Spectrum,
+    /// 0 dielectric, 1 metal.
+    pub metallic: f32,
+    /// Perceptual: α = roughness².
+    pub roughness: f32,
+    /// Index of refraction for the reflection of the opaque base and for thin walls; 0 stands for infinite.
+    pub ior: f32,
+    /// Strength of the opaque base's reflection; 0 leaves exact Lambert.
+    pub specular: f32,
+    /// Tint of the opaque base's reflection at normal incidence, may exceed 1.
+    pub specular_color: Spectrum,
+    /// Share of the base that is replaced by transmission.
+    pub transmission: f32,
+    /// Thin wall rather than the boundary of a solid.
+    pub thin: bool,
+    /// For solids: index on the far side over index on the side of the ray.
+    pub eta: f32,
+    /// How diffuse directions are drawn.
+    pub diffuse_sampling: DiffuseSampling,
+}
+
+impl Default for BsdfParams {
+    /// A rough white dielectric with index 1.5, opaque.
+    fn default() -> Self {
+        BsdfParams {
+            base_color: Spectrum::WHITE,
+            metallic: 0.0,
+            roughness: 1.0,
+            ior: 1.5,
+            specular: 1.0,
+            specular_color: Spectrum::WHITE,
+            transmission: 0.0,
+            thin: true,
+            eta: 1.5,
+            diffuse_sampling: DiffuseSampling::Cosine,
+        }
+    }
+}
+
+/// One term of the mixture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Model {
+    Metal(Metal),
+    Base(DielectricBase),
+    Solid(Dielectric),
+    Thin(Thin),
+}
+
+impl Model {
+    #[inline]
+    fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
+        match self {
+            Model::Metal(m) => m.eval_pdf(wo, wi),
+            Model::Base(m) => m.eval_pdf(wo, wi),
+            Model::Solid(m) => m.eval_pdf(wo, wi, mode),
+            Model::Thin(m) => m.eval_pdf(wo, wi),
+        }
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2], mode: TransportMode) -> Option<BsdfSample> {
+        match self {
+            Model::Metal(m) => m.sample(wo, u_lobe, u),
+            Model::Base(m) => m.sample(wo, u_lobe, u),
+            Model::Solid(m) => m.sample(wo, u_lobe, u, mode),
+            Model::Thin(m) => m.sample(wo, u_lobe, u),
+        }
+    }
+
+    #[inline]
+    fn is_smooth_lobe(&self) -> bool {
+        match self {
+            Model::Metal(m) => m.is_smooth_lobe(),
+            Model::Base(m) => m.is_smooth_lobe(),
+            Model::Solid(m) => m.is_smooth_lobe(),
+            Model::Thin(m) => m.is_smooth_lobe(),
+        }
+    }
+
+    #[inline]
+    fn albedo(&self) -> Spectrum {
+        match self {
+            Model::Metal(m) => m.albedo(),
+            Model::Base(m) => m.albedo(),
+            Model::Solid(m) => m.albedo(),
+            Model::Thin(m) => m.albedo(),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Component {
+    model: Model,
+    /// Share of the mixture.
+    weight: f32,
+    /// Probability of being chosen.
+    prob: f32,
+}
+
+/// Scattering at one point: a mixture of at most three models. No allocation; made anew at each hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bsdf {
+    first: Component,
+    others: [Option<Component>; 2],
+}
+
+impl Bsdf {
+    /// The surface with the given parameters.
+    pub fn new(params: &BsdfParams) -> Self {
+        let base_color = params.base_color.map(unit_interval);
+        let (metallic, transmission) = (unit_interval(params.metallic), unit_interval(params.transmission));
+        let specular = unit_interval(params.specular);
+        let dielectric = 1.0 - metallic;
+        let weights = [metallic, dielectric * (1.0 - transmission), dielectric * transmission];
+        if weights[1] == 1.0 && specular == 0.0 {
+            return Bsdf::lambert(base_color, params.diffuse_sampling);
+        }
+        let rough = Rough::new(params.roughness);
+        let make = |k: usize| match k {
+            0 => Model::Metal(Metal::new(base_color, rough)),
+            1 => {
+                let tint = params.specular_color.map(|c| (f0_from_ior(params.ior) * c.max(0.0)).min(1.0));
+                let f0 = tint * specular;
+                Model::Base(DielectricBase::new(base_color, f0, specular, rough, params.diffuse_sampling))
+            }
+            _ if params.thin => Model::Thin(Thin::new(params.ior, base_color, rough)),
+            _ => Model::Solid(Dielectric::new(params.eta, base_color, rough)),
+        };
+        let mut terms = (0..3).filter(|&k| weights[k] > 0.0).map(|k| Component {
+            model: make(k),
+            weight: weights[k],
+            prob: 1.0,
+        });
+        // The weights sum to 1, so at least one term exists.
+        let first = terms.next().expect("weights sum to 1");
+        let others = [terms.next(), terms.next()];
+        let mut bsdf = Bsdf { first, others };
+        if bsdf.others[0].is_some() {
+            bsdf.set_probabilities();
+        }
+        bsdf
+    }
+
+    /// A Lambert surface; `albedo` in [0, 1].
+    #[inline]
+    pub fn lambert(albedo: Spectrum, sampling: DiffuseSampling) -> Self {
+        let base = DielectricBase::new(albedo, Spectrum::BLACK, 0.0, None, sampling);
+        Bsdf { first: Component { model: Model::Base(base), weight: 1.0, prob: 1.0 }, others: [None; 2] }
+    }
+
+    fn set_probabilities(&mut self) {
+        let mut sum = 0.0;
+        for c in self.components_mut() {
+            c.prob = c.weight * (c.model.albedo().average() + ALBEDO_FLOOR);
+            sum += c.prob;
+        }
+        for c in self.components_mut() {
+            c.prob /= sum;
+        }
+    }
+
+    #[inline]
+    fn components(&self) -> impl Iterator<Item = &Component> {
+        core::iter::once(&self.first).chain(self.others.iter().flatten())
+    }
+
+    fn components_mut(&mut self) -> impl Iterator<Item = &mut Component> {
+        core::iter::once(&mut self.first).chain(self.others.iter_mut().flatten())
+    }
+
+    #[inline]
+    fn is_mixed(&self) -> bool {
+        self.others[0].is_some()
+    }
+
+    /// f · |cos θi| and the density of `sample`, sr⁻¹, smooth lobes only.
+    #[inline]
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
+        if wo.z < MIN_COS {
+            return (Spectrum::BLACK, 0.0);
+        }
+        if !self.is_mixed() {
+            return self.first.model.eval_pdf(wo, wi, mode);
+        }
+        self.components().fold((Spectrum::BLACK, 0.0), |(f, pdf), c| {
+            let (f_c, pdf_c) = c.model.eval_pdf(wo, wi, mode);
+            (f + f_c * c.weight, pdf + pdf_c * c.prob)
+        })
+    }
+
+    /// f · |cos θi|, smooth lobes only.
+    #[inline]
+    pub fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Spectrum {
+        self.eval_pdf(wo, wi, mode).0
+    }
+
+    /// Density of `sample`, sr⁻¹, smooth lobes only. It integrates to 1 less the probabilities of delta lobes and of samples that end.
+    #[inline]
+    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.eval_pdf(wo, wi, TransportMode::Radiance).1
+    }
+
+    /// Draws a direction. `None` when the path ends here: the light of that sample is 0.
+    #[inline]
+    pub fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2], mode: TransportMode) -> Option<BsdfSample> {
+        if wo.z < MIN_COS {
+            return None;
+        }
+        if !self.is_mixed() {
+            return self.first.model.sample(wo, u_lobe, u, mode);
+        }
+        // Choose a component and stretch the number that chose it over [0, 1) again.
+        let mut chosen = &self.first;
+        let mut below = 0.0;
+        for c in self.others.iter().flatten() {
+            if u_lobe < below + chosen.prob {
+                break;
+            }
+            below += chosen.prob;
+            chosen = c;
+        }
+        let u_lobe = ((u_lobe - below) / chosen.prob).clamp(0.0, ONE_MINUS_EPSILON);
+        let sample = chosen.model.sample(wo, u_lobe, u, mode)?;
+        if sample.lobe.is_delta() {
+            let weight = sample.weight * (chosen.weight / chosen.prob);
+            return Some(BsdfSample { weight, pdf: sample.pdf * chosen.prob, ..sample });
+        }
+        let (f, pdf) = self.eval_pdf(wo, sample.wi, mode);
+        (pdf > 0.0).then(|| BsdfSample { weight: f / pdf, pdf, ..sample })
+    }
+
+    /// False when every lobe is a delta: light sampling has nothing to find here.
+    #[inline]
+    pub fn has_smooth_lobes(&self) -> bool {
+        self.components().any(|c| c.model.is_smooth_lobe())
+    }
+
+    /// Hemispherical albedo, approximately, in [0, 1]: a guide for denoisers.
+    pub fn albedo(&self) -> Spectrum {
+        self.components().fold(Spectrum::BLACK, |sum, c| sum + c.model.albedo() * c.weight).min(1.0)
+    }
+
+    /// What a smooth thin wall lets straight through at this cosine to the normal, for shadow rays; black for everything else.
+    /// Exact: it is the weight of [`super::Lobe::ThinTransmission`].
+    #[inline]
+    pub fn thin_transmittance(&self, cos: f32) -> Spectrum {
+        self.passing(|model| match model {
+            Model::Thin(m) => m.transmittance(cos),
+            _ => Spectrum::BLACK,
+        })
+    }
+
+    /// What crosses the smooth boundary of a solid when refraction is ignored, for shadow rays that may pass straight; black for everything
+    /// else. `cos` is taken in the thinner medium on both sides, so a parallel body counts Fresnel alike on entering and leaving.
+    #[inline]
+    pub fn straight_transmittance(&self, cos: f32) -> Spectrum {
+        self.passing(|model| match model {
+            Model::Solid(m) => m.straight_transmittance(cos),
+            _ => Spectrum::BLACK,
+        })
+    }
+
+    #[inline]
+    fn passing(&self, f: impl Fn(&Model) -> Spectrum) -> Spectrum {
+        self.components().fold(Spectrum::BLACK, |sum, c| sum + f(&c.model) * c.weight)
+    }
+}
+
+/// Clamps to [0, 1]; NaN becomes 0.
+#[inline]
+fn unit_interval(x: f32) -> f32 {
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
+}

@@ -1,0 +1,165 @@
+//! The level with AVX2 and FMA. The box test fuses its products (the margin of `ray` allows for either rounding); the
+//! triangle test does not, so that its bits are those of the portable level.
+
+use super::{Near, Simd};
+use crate::bvh::ray::TravRay;
+use crate::bvh::triangle::{Packet, Sheared};
+use crate::bvh::wide::WideNode;
+use std::arch::x86_64::*;
+
+pub(in crate::bvh) struct Avx2;
+
+pub(in crate::bvh) struct RayAvx2 {
+    rdir: [__m256; 3],
+    near: [__m256; 3],
+    far: [__m256; 3],
+    t_min: __m256,
+    near_row: [usize; 3],
+    pub(super) triangle: TriangleRay,
+}
+
+/// The part of the ray that the triangle filter uses, axes in sheared order.
+pub(in crate::bvh) struct TriangleRay {
+    origin: [__m128; 3],
+    shear: [__m128; 3],
+    t_min: __m128,
+    axes: [usize; 3],
+}
+
+impl Simd for Avx2 {
+    type Ray = RayAvx2;
+
+    #[inline(always)]
+    unsafe fn ray(ray: &TravRay) -> RayAvx2 {
+        // SAFETY: the caller vouches for AVX2.
+        unsafe {
+            RayAvx2 {
+                rdir: splat(ray.rdir),
+                near: splat(ray.near),
+                far: splat(ray.far),
+                t_min: _mm256_set1_ps(ray.t_min),
+                near_row: ray.near_row,
+                triangle: triangle_ray(ray),
+            }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn boxes(node: &WideNode, ray: &RayAvx2, t_best: f32, near: &mut Near) -> u32 {
+        // SAFETY: the caller vouches for AVX2; rows are 32 bytes of a node aligned to 64, and row numbers are below 6.
+        unsafe {
+            let [nx, ny, nz] = ray.near_row;
+            let [rx, ry, rz] = ray.rdir;
+            let enter_x = _mm256_fmsub_ps(row(node, nx), rx, ray.near[0]);
+            let enter_y = _mm256_fmsub_ps(row(node, ny), ry, ray.near[1]);
+            let enter_z = _mm256_fmsub_ps(row(node, nz), rz, ray.near[2]);
+            let leave_x = _mm256_fmsub_ps(row(node, nx ^ 1), rx, ray.far[0]);
+            let leave_y = _mm256_fmsub_ps(row(node, ny ^ 1), ry, ray.far[1]);
+            let leave_z = _mm256_fmsub_ps(row(node, nz ^ 1), rz, ray.far[2]);
+            let t0 = _mm256_max_ps(_mm256_max_ps(enter_x, enter_y), _mm256_max_ps(enter_z, ray.t_min));
+            let t1 = _mm256_min_ps(
+                _mm256_min_ps(leave_x, leave_y),
+                _mm256_min_ps(leave_z, _mm256_set1_ps(t_best)),
+            );
+            _mm256_store_ps(near.0.as_mut_ptr(), t0);
+            _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(t0, t1)) as u32
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn triangles(packet: &Packet, ray: &RayAvx2, t_best: f32, sheared: &mut Sheared) -> u32 {
+        // SAFETY: the caller vouches for AVX2.
+        unsafe { triangles(packet, &ray.triangle, t_best, sheared) }
+    }
+}
+
+/// # Safety
+/// As [`Simd::ray`]; so for all below.
+#[inline(always)]
+pub(super) unsafe fn splat(v: [f32; 3]) -> [__m256; 3] {
+    // SAFETY: the caller vouches for AVX2.
+    unsafe { [_mm256_set1_ps(v[0]), _mm256_set1_ps(v[1]), _mm256_set1_ps(v[2])] }
+}
+
+/// # Safety
+/// See [`splat`]; `i < 6`.
+#[inline(always)]
+pub(super) unsafe fn row(node: &WideNode, i: usize) -> __m256 {
+    debug_assert!(i < 6);
+    // SAFETY: the caller vouches for AVX2 and `i`; rows are 32 bytes long in a node aligned to 64.
+    unsafe { _mm256_load_ps(node.planes.as_ptr().add(i).cast()) }
+}
+
+/// # Safety
+/// See [`splat`].
+#[inline(always)]
+pub(super) unsafe fn triangle_ray(ray: &TravRay) -> TriangleRay {
+    let [x, y, z] = ray.axes;
+    // SAFETY: the caller vouches for AVX2.
+    unsafe {
+        TriangleRay {
+            origin: [_mm_set1_ps(ray.origin[x]), _mm_set1_ps(ray.origin[y]), _mm_set1_ps(ray.origin[z])],
+            shear: [_mm_set1_ps(ray.shear[0]), _mm_set1_ps(ray.shear[1]), _mm_set1_ps(ray.shear[2])],
+            t_min: _mm_set1_ps(ray.t_min),
+            axes: ray.axes,
+        }
+    }
+}
+
+/// Vertex `v` of a packet in the frame of the ray.
+///
+/// # Safety
+/// See [`splat`]; `v < 3`.
+#[inline(always)]
+unsafe fn vertex(packet: &Packet, ray: &TriangleRay, v: usize) -> [__m128; 3] {
+    // SAFETY: the caller vouches for AVX2 and `v`; axes are below 3, and rows are 16 bytes long in a packet aligned to 32.
+    unsafe {
+        let rows = packet.rows.as_ptr().add(3 * v);
+        let x = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[0]).cast()), ray.origin[0]);
+        let y = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[1]).cast()), ray.origin[1]);
+        let z = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[2]).cast()), ray.origin[2]);
+        [
+            _mm_sub_ps(x, _mm_mul_ps(ray.shear[0], z)),
+            _mm_sub_ps(y, _mm_mul_ps(ray.shear[1], z)),
+            _mm_mul_ps(ray.shear[2], z),
+        ]
+    }
+}
+
+/// # Safety
+/// See [`splat`].
+#[inline(always)]
+unsafe fn edge(p: &[__m128; 3], q: &[__m128; 3]) -> __m128 {
+    // SAFETY: the caller vouches for AVX2.
+    unsafe { _mm_sub_ps(_mm_mul_ps(p[0], q[1]), _mm_mul_ps(p[1], q[0])) }
+}
+
+/// # Safety
+/// See [`splat`].
+#[inline(always)]
+pub(super) unsafe fn triangles(
+    packet: &Packet,
+    ray: &TriangleRay,
+    t_best: f32,
+    sheared: &mut Sheared,
+) -> u32 {
+    // SAFETY: the caller vouches for AVX2; rows of `sheared` are 16 bytes long.
+    unsafe {
+        let (a, b, c) = (vertex(packet, ray, 0), vertex(packet, ray, 1), vertex(packet, ray, 2));
+        let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
+        let zero = _mm_setzero_ps();
+        let low = _mm_cmplt_ps(_mm_min_ps(_mm_min_ps(u, v), w), zero);
+        let high = _mm_cmpgt_ps(_mm_max_ps(_mm_max_ps(u, v), w), zero);
+        let z_min = _mm_min_ps(_mm_min_ps(a[2], b[2]), c[2]);
+        let z_max = _mm_max_ps(_mm_max_ps(a[2], b[2]), c[2]);
+        let range = _mm_and_ps(_mm_cmple_ps(z_min, _mm_set1_ps(t_best)), _mm_cmpgt_ps(z_max, ray.t_min));
+        let mask = _mm_movemask_ps(_mm_andnot_ps(_mm_and_ps(low, high), range)) as u32;
+        if mask != 0 {
+            let rows = [a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]];
+            for (to, value) in sheared.iter_mut().zip(rows) {
+                _mm_storeu_ps(to.as_mut_ptr(), value);
+            }
+        }
+        mask
+    }
+}

@@ -1,0 +1,309 @@
+//! The path tracer: radiance along a camera ray, by next-event estimation and scattering, joined by multiple importance
+//! sampling. Kajiya 1986; Veach 1997. An iterative loop, never recursion; the shader twin takes the same named steps in the
+//! same order.
+
+use crate::interaction::Interaction;
+use crate::light_sampling::{LightSample, pdf_environment, pdf_sun, pdf_triangle, sample_light, sun};
+use crate::observer::{PathEvent, PathObserver};
+use crate::shadow::ShadowRay;
+use crate::surface::{Surface, emission};
+use crate::tracer::{CoverageKey, Tracer};
+use glam::Vec3;
+use lumbre_core::bsdf::{BsdfSample, Lobe, TransportMode};
+use lumbre_core::film::{FilmSample, FirstHit};
+use lumbre_core::medium::MediumStack;
+use lumbre_core::mis::power_heuristic;
+use lumbre_core::ray::offset_ray_origin;
+use lumbre_core::sampler::Sampler;
+use lumbre_core::settings::{RenderSettings, TransmissiveShadows};
+use lumbre_core::{Ray, Spectrum};
+use lumbre_scene::compiled::NONE;
+use lumbre_scene::compiled::material::flag;
+
+/// Largest probability of surviving roulette: a path without absorption ends some day too.
+const MAX_SURVIVAL: f32 = 0.95;
+
+/// How the current ray came about: what light it meets must be weighed against.
+#[derive(Clone, Copy, Debug)]
+struct Arrival {
+    /// The last vertex that scattered (thin walls passed straight do not count).
+    p: Vec3,
+    /// Density of the direction there, sr⁻¹; `None` where light sampling could not have found the light (camera, delta lobes).
+    pdf: Option<f32>,
+    /// Since a vertex with a density, the path has done nothing but refract through smooth solids.
+    through_solid: bool,
+}
+
+/// A path under way.
+struct Path<'a, 't, O> {
+    tracer: &'a Tracer<'t>,
+    sampler: &'a Sampler,
+    observer: &'a mut O,
+    ray: Ray,
+    radiance: Spectrum,
+    /// Throughput.
+    beta: Spectrum,
+    /// Radiance scaling by refraction that is part of `beta`.
+    eta_scale: f32,
+    media: MediumStack,
+    arrival: Arrival,
+    /// Scattering events so far.
+    depth: u32,
+    max_depth: u32,
+}
+
+/// Radiance along a camera ray that starts inside `media`.
+pub fn radiance<O: PathObserver>(
+    tracer: &Tracer<'_>,
+    ray: Ray,
+    media: MediumStack,
+    sampler: &Sampler,
+    observer: &mut O,
+) -> FilmSample {
+    observer.event(PathEvent::Camera { ray: &ray });
+    let arrival = Arrival { p: ray.origin, pdf: None, through_solid: false };
+    let mut path = Path {
+        tracer,
+        sampler,
+        observer,
+        ray,
+        radiance: Spectrum::BLACK,
+        beta: Spectrum::WHITE,
+        eta_scale: 1.0,
+        media,
+        arrival,
+        depth: 0,
+        max_depth: tracer.settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND),
+    };
+    let first_hit = path.run();
+    FilmSample { radiance: path.radiance, first_hit }
+}
+
+impl<O: PathObserver> Path<'_, '_, O> {
+    fn run(&mut self) -> Option<FirstHit> {
+        let mut first_hit = None;
+        loop {
+            // Find the closest surface.
+            let key = CoverageKey::path(self.sampler.coverage_key(), self.depth);
+            let it = match self.depth {
+                0 => self.tracer.closest_hit_camera(&self.ray, key),
+                _ => self.tracer.closest_hit(&self.ray, key),
+            };
+            let Some(it) = it else {
+                self.add_sky();
+                return first_hit;
+            };
+            // Absorb on the way to it.
+            self.beta *= self.media.current().transmittance(it.t);
+            // Build the surface.
+            let wo = -self.ray.dir;
+            let diffuse = self.tracer.settings.diffuse_sampling;
+            let surface = Surface::new(self.tracer.scene, &it, wo, &self.media, diffuse);
+            self.observer.event(PathEvent::Hit { it: &it, ns: surface.frame.n, beta: self.beta });
+            if self.depth == 0 {
+                first_hit = Some(first_hit_planes(&it, &surface));
+            }
+            // Add what it emits.
+            if self.add_emission(&it, &surface) {
+                return first_hit;
+            }
+            if self.depth >= self.max_depth {
+                return self.end("the path is as long as it may be", first_hit);
+            }
+            // Sample one light.
+            let wo_local = surface.frame.to_local(wo);
+            if self.tracer.settings.light_sampling && surface.bsdf.has_smooth_lobes() {
+                self.add_light(&it, &surface, wo_local);
+            }
+            // Sample the BSDF.
+            let u = self.sampler.direction(self.depth);
+            let Some(s) = surface.bsdf.sample(wo_local, u.lobe, u.direction, TransportMode::Radiance) else {
+                return self.end("the surface absorbs", first_hit);
+            };
+            let wi = surface.frame.to_world(s.wi).normalize();
+            self.observer.event(PathEvent::Scatter { lobe: s.lobe, wi, pdf: s.pdf, weight: s.weight });
+            // Interpolated normals: directions on the wrong side of the triangle carry nothing.
+            if (wi.dot(surface.ng) > 0.0) == s.lobe.is_transmission() {
+                return self.end("the direction lies on the wrong side of the geometric normal", first_hit);
+            }
+            self.step(&it, &surface, &s, wi);
+            // Play roulette.
+            if self.beta.is_black() || !self.survives(u.roulette) {
+                return self.end("absorbed", first_hit);
+            }
+        }
+    }
+
+    fn end(&mut self, reason: &'static str, first_hit: Option<FirstHit>) -> Option<FirstHit> {
+        self.observer.event(PathEvent::End { reason });
+        first_hit
+    }
+
+    /// Adds light met by the path itself.
+    fn add(&mut self, source: &'static str, radiance: Spectrum, mis_weight: f32) {
+        let contribution = self.beta * radiance * mis_weight;
+        self.radiance += contribution;
+        self.observer.event(PathEvent::Emission { source, radiance, mis_weight, contribution });
+    }
+
+    /// Weight of light met by scattering, whose direction light sampling draws with density `pdf_light`.
+    fn mis_weight(&self, pdf_light: impl FnOnce() -> f32) -> f32 {
+        match self.arrival.pdf {
+            Some(pdf) if self.tracer.settings.light_sampling => power_heuristic(pdf, pdf_light()),
+            _ => 1.0,
+        }
+    }
+
+    /// True when shadow rays have already brought this light straight through the solid that the path refracted through.
+    fn counted_by_straight_shadows(&self, mode: TransmissiveShadows) -> bool {
+        self.tracer.settings.light_sampling
+            && self.arrival.through_solid
+            && self.tracer.settings.transmissive_shadows == mode
+    }
+
+    /// Adds the emission of a surface; true when the path ends there.
+    fn add_emission(&mut self, it: &Interaction, surface: &Surface) -> bool {
+        let scene = self.tracer.scene;
+        let material = &scene.materials[it.material as usize];
+        if material.has(flag::UNLIT) {
+            self.add("unlit surface", surface.base_color, 1.0);
+            return true;
+        }
+        let radiance = emission(scene, material, &it.uv, it.front);
+        if radiance.is_black() || self.counted_by_straight_shadows(TransmissiveShadows::Straight) {
+            return false;
+        }
+        let instance = &scene.instances[it.instance as usize];
+        let rank = scene.meshes[instance.mesh as usize].emissive_rank(&scene.emissive_ranks, it.triangle);
+        let (from, dir) = (self.arrival.p, self.ray.dir);
+        let weight = self.mis_weight(|| match rank {
+            Some(rank) if instance.first_light != NONE => {
+                pdf_triangle(scene, instance.first_light + rank, dir, (it.p - from).length_squared())
+            }
+            _ => 0.0,
+        });
+        self.add("emissive surface", radiance, weight);
+        false
+    }
+
+    /// Adds sun and environment to a ray that left the scene.
+    fn add_sky(&mut self) {
+        let scene = self.tracer.scene;
+        let dir = self.ray.dir;
+        self.beta *= self.media.current().transmittance(f32::INFINITY);
+        self.observer.event(PathEvent::Miss { dir, beta: self.beta });
+        let straight = self.counted_by_straight_shadows(TransmissiveShadows::Straight);
+        let straight_sun = straight || self.counted_by_straight_shadows(TransmissiveShadows::Auto);
+        if scene.sun.light != NONE && !straight_sun && sun(scene).contains(dir) {
+            let weight = self.mis_weight(|| pdf_sun(scene, dir));
+            self.add("sun", scene.sun.radiance, weight);
+        }
+        if scene.environment.light != NONE && !straight {
+            let radiance = scene.environment_light().radiance(dir);
+            let weight = self.mis_weight(|| pdf_environment(scene, dir));
+            self.add("environment", radiance, weight);
+        }
+    }
+
+    /// Next-event estimation.
+    fn add_light(&mut self, it: &Interaction, surface: &Surface, wo_local: Vec3) {
+        let scene = self.tracer.scene;
+        let Some(light) = sample_light(scene, it.p, &self.sampler.light(self.depth)) else { return };
+        let wi_local = surface.frame.to_local(light.wi);
+        // Reflection and transmission are told apart by the shading normal; the geometric one must agree.
+        let reflects = light.wi.dot(surface.ng) > 0.0;
+        if reflects != (wi_local.z > 0.0) {
+            return;
+        }
+        let (f, pdf_bsdf) = surface.bsdf.eval_pdf(wo_local, wi_local, TransportMode::Radiance);
+        if f.is_black() {
+            return;
+        }
+        let transmittance = self.light_transmittance(it, surface, &light, reflects);
+        let mis_weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
+        let contribution = self.beta * f * light.radiance * transmittance * (mis_weight / light.pdf);
+        self.radiance += contribution;
+        self.observer.event(PathEvent::Light {
+            light: light.light,
+            wi: light.wi,
+            pdf: light.pdf,
+            transmittance,
+            mis_weight,
+            contribution,
+        });
+    }
+
+    /// Traces the shadow ray.
+    fn light_transmittance(
+        &self,
+        it: &Interaction,
+        surface: &Surface,
+        light: &LightSample,
+        reflects: bool,
+    ) -> Spectrum {
+        let mut media = self.media;
+        if let Some(beyond) = surface.beyond.filter(|_| !reflects) {
+            media.cross(beyond, it.material, it.front);
+        }
+        let shadow = ShadowRay {
+            p: it.p,
+            ng: it.ng,
+            wi: light.wi,
+            end: light.end,
+            time: self.ray.time,
+            media,
+            wall_budget: self.max_depth - self.depth - 1,
+            // The sun can be hit, but only by luck; behind glass its light is left to shadow rays like that of a point.
+            to_delta_light: light.is_delta || light.light == self.tracer.scene.sun.light,
+        };
+        self.tracer.transmittance(&shadow, CoverageKey::shadow(self.sampler.coverage_key(), self.depth))
+    }
+
+    /// Moves on along the sampled direction.
+    fn step(&mut self, it: &Interaction, surface: &Surface, s: &BsdfSample, wi: Vec3) {
+        self.beta *= s.weight;
+        self.eta_scale *= s.eta_scale;
+        self.depth += 1;
+        let origin = offset_ray_origin(it.p, it.ng, wi);
+        self.ray = Ray::new(origin, wi, self.ray.time);
+        if s.lobe.is_transmission() {
+            if let Some(beyond) = surface.beyond {
+                self.media.cross(beyond, it.material, it.front);
+            }
+        }
+        match s.lobe {
+            // The direction did not change: to light sampling the last vertex still sees what comes.
+            Lobe::ThinTransmission => {}
+            Lobe::SpecularTransmission => {
+                let through_solid = self.arrival.through_solid || self.arrival.pdf.is_some();
+                self.arrival = Arrival { p: it.p, pdf: None, through_solid };
+            }
+            Lobe::SpecularReflection => self.arrival = Arrival { p: it.p, pdf: None, through_solid: false },
+            _ => self.arrival = Arrival { p: it.p, pdf: Some(s.pdf), through_solid: false },
+        }
+    }
+
+    /// Russian roulette on the throughput, without the scaling that refraction will undo.
+    fn survives(&mut self, u: f32) -> bool {
+        let Some(first) = self.tracer.settings.roulette else { return true };
+        if self.depth < first {
+            return true;
+        }
+        let survival = (self.beta.max_component() / self.eta_scale).min(MAX_SURVIVAL);
+        let survived = u < survival;
+        self.observer.event(PathEvent::Roulette { survival, survived });
+        if survived {
+            self.beta *= 1.0 / survival;
+        }
+        survived
+    }
+}
+
+fn first_hit_planes(it: &Interaction, surface: &Surface) -> FirstHit {
+    FirstHit {
+        albedo: surface.bsdf.albedo(),
+        normal: surface.frame.n.to_array(),
+        position: it.p.to_array(),
+        depth: it.t,
+    }
+}

@@ -1,0 +1,129 @@
+//! Shadow rays: how much light passes between two points in a straight line.
+
+use crate::interaction::{Interaction, material_of};
+use crate::surface::Surface;
+use crate::tracer::{CoverageKey, Tracer};
+use glam::Vec3;
+use lumbre_core::bsdf::DiffuseSampling;
+use lumbre_core::medium::MediumStack;
+use lumbre_core::ray::offset_ray_origin;
+use lumbre_core::settings::TransmissiveShadows;
+use lumbre_core::{Ray, Spectrum};
+use lumbre_scene::compiled::material::flag;
+
+/// A straight line to a light.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowRay {
+    /// From here.
+    pub p: Vec3,
+    /// Geometric normal there.
+    pub ng: Vec3,
+    /// Unit direction to the light.
+    pub wi: Vec3,
+    /// Where it ends.
+    pub end: ShadowEnd,
+    /// Moment in the shutter interval.
+    pub time: f32,
+    /// The media in which it begins.
+    pub media: MediumStack,
+    /// Thin walls it may pass before the path would be too long.
+    pub wall_budget: u32,
+    /// Its light cannot be hit by scattered rays.
+    pub to_delta_light: bool,
+}
+
+/// Where a shadow ray ends.
+#[derive(Clone, Copy, Debug)]
+pub enum ShadowEnd {
+    /// At a distance along `wi`: infinite, or a light that has no surface.
+    Distance(f32),
+    /// On a surface.
+    Surface {
+        /// The point.
+        point: Vec3,
+        /// Its geometric normal, either side.
+        ng: Vec3,
+    },
+}
+
+impl ShadowRay {
+    fn ray(&self) -> Ray {
+        let origin = offset_ray_origin(self.p, self.ng, self.wi);
+        match self.end {
+            ShadowEnd::Distance(d) => Ray { t_max: d, ..Ray::new(origin, self.wi, self.time) },
+            ShadowEnd::Surface { point, ng } => {
+                // Both ends leave their surfaces towards each other, so neither is in the way.
+                let to = offset_ray_origin(point, ng, -self.wi) - origin;
+                let d = to.length();
+                let dir = if d > 0.0 { to / d } else { self.wi };
+                Ray { t_max: d, ..Ray::new(origin, dir, self.time) }
+            }
+        }
+    }
+}
+
+/// Most transmissive surfaces that one shadow ray passes.
+const MOST_SURFACES: u32 = 64;
+
+impl Tracer<'_> {
+    /// Share of the light that arrives; black when something stands in between.
+    pub fn transmittance(&self, shadow: &ShadowRay, key: CoverageKey) -> Spectrum {
+        let ray = shadow.ray();
+        let solids_pass = match self.settings.transmissive_shadows {
+            TransmissiveShadows::Auto => shadow.to_delta_light,
+            TransmissiveShadows::Physical => false,
+            TransmissiveShadows::Straight => true,
+        };
+        // Most rays meet nothing transmissive: look for what blocks first.
+        let mut meets_transmissive = false;
+        let blocked = self.tlas.any_hit(&ray, |hit| {
+            if !self.covered(hit, key) {
+                return false;
+            }
+            let material = &self.scene.materials[material_of(self.scene, hit) as usize];
+            let passes = material.transmission > 0.0 && (solids_pass || !material.has(flag::SOLID));
+            meets_transmissive |= passes;
+            !passes
+        });
+        if blocked {
+            Spectrum::BLACK
+        } else if meets_transmissive {
+            self.pass_through(ray, shadow, key)
+        } else {
+            shadow.media.current().transmittance(ray.t_max)
+        }
+    }
+
+    /// Follows the ray from one transmissive surface to the next.
+    fn pass_through(&self, ray: Ray, shadow: &ShadowRay, key: CoverageKey) -> Spectrum {
+        let mut media = shadow.media;
+        let mut walls = shadow.wall_budget;
+        let mut factor = Spectrum::WHITE;
+        let mut ray = ray;
+        for _ in 0..MOST_SURFACES {
+            let Some(hit) = self.tlas.closest_hit(&ray, |hit| self.covered(hit, key)) else {
+                return factor * media.current().transmittance(ray.t_max - ray.t_min);
+            };
+            let it = Interaction::new(self.scene, &ray, &hit);
+            let surface = Surface::new(self.scene, &it, -ray.dir, &media, DiffuseSampling::Cosine);
+            factor *= media.current().transmittance(hit.t - ray.t_min);
+            let cos = surface.frame.n.dot(ray.dir).abs();
+            match surface.beyond {
+                Some(beyond) => {
+                    factor *= surface.bsdf.straight_transmittance(cos);
+                    media.cross(beyond, it.material, it.front);
+                }
+                None if walls == 0 => return Spectrum::BLACK,
+                None => {
+                    factor *= surface.bsdf.thin_transmittance(cos);
+                    walls -= 1;
+                }
+            }
+            if factor.is_black() {
+                return Spectrum::BLACK;
+            }
+            ray.t_min = hit.t;
+        }
+        Spectrum::BLACK
+    }
+}

@@ -1,0 +1,151 @@
+//! Materials at a point: textures looked up, the shading frame built, the BSDF made.
+
+use crate::interaction::{HitAttributes, Interaction};
+use glam::Vec3;
+use lumbre_core::bsdf::{Bsdf, BsdfParams, DiffuseSampling};
+use lumbre_core::medium::{Medium, MediumStack};
+use lumbre_core::{Frame, Rgb, Spectrum};
+use lumbre_scene::CompiledScene;
+use lumbre_scene::compiled::material::{MaterialRecord, flag};
+use lumbre_scene::compiled::texture::{Encoding, Rgba};
+
+/// Everything the integrator asks of a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface {
+    /// Shading frame, its normal on the side the ray came from.
+    pub frame: Frame,
+    /// Geometric normal on the side the ray came from.
+    pub ng: Vec3,
+    /// Scattering.
+    pub bsdf: Bsdf,
+    /// Base colour, for `unlit` and the albedo plane.
+    pub base_color: Rgb,
+    /// The medium on the far side, for a solid.
+    pub beyond: Option<Medium>,
+}
+
+/// Base colour and alpha: factor × texture × vertex colour.
+#[inline]
+pub fn base_color(
+    scene: &CompiledScene,
+    material: &MaterialRecord,
+    uv: &[[f32; 2]; 2],
+    color: &[f32; 4],
+) -> Rgba {
+    let t = scene.texture(&material.base_color_texture, uv, Encoding::Srgb);
+    Rgba {
+        rgb: (material.base_color * t.rgb * Rgb::new(color[0], color[1], color[2])).max(0.0).min(1.0),
+        a: (material.alpha * t.a * color[3]).clamp(0.0, 1.0),
+    }
+}
+
+/// Probability that the surface is there, by its alpha mode.
+#[inline]
+pub fn coverage(scene: &CompiledScene, material: &MaterialRecord, at: &HitAttributes) -> f32 {
+    let alpha = base_color(scene, material, &at.uv, &at.color).a;
+    if material.has(flag::ALPHA_MASK) { f32::from(alpha >= material.alpha_cutoff) } else { alpha }
+}
+
+/// Radiance emitted towards the side `front`.
+#[inline]
+pub fn emission(
+    scene: &CompiledScene,
+    material: &MaterialRecord,
+    uv: &[[f32; 2]; 2],
+    front: bool,
+) -> Spectrum {
+    if !material.has(flag::EMISSIVE) || !(front || material.has(flag::DOUBLE_SIDED)) {
+        return Spectrum::BLACK;
+    }
+    material.emission * scene.texture(&material.emissive_texture, uv, Encoding::Srgb).rgb
+}
+
+/// The medium inside a solid material.
+#[inline]
+pub fn medium(material: &MaterialRecord, id: u32) -> Medium {
+    Medium { ior: material.ior, absorption: material.absorption, material: id }
+}
+
+impl Surface {
+    /// The surface at `it`, seen from `wo`, with the path inside `media`.
+    pub fn new(
+        scene: &CompiledScene,
+        it: &Interaction,
+        wo: Vec3,
+        media: &MediumStack,
+        diffuse_sampling: DiffuseSampling,
+    ) -> Self {
+        let material = &scene.materials[it.material as usize];
+        let base_color = base_color(scene, material, &it.uv, &it.color).rgb;
+        let solid = material.has(flag::SOLID);
+        let beyond =
+            solid.then(|| if it.front { medium(material, it.material) } else { media.outside(it.material) });
+        // On its back the ray is inside the solid, whatever the stack could hold.
+        let here = if it.front { media.current().ior } else { material.ior };
+        let params = bsdf_params(scene, material, &it.uv, base_color);
+        let params = BsdfParams { eta: beyond.map_or(1.0, |m| m.ior / here), diffuse_sampling, ..params };
+        let ng = if it.front { it.ng } else { -it.ng };
+        Surface {
+            frame: shading_frame(scene, material, it, wo, ng),
+            ng,
+            bsdf: Bsdf::new(&params),
+            base_color,
+            beyond,
+        }
+    }
+}
+
+/// The material's values with its textures; `eta` and the diffuse sampling are left at their defaults.
+pub fn bsdf_params(
+    scene: &CompiledScene,
+    material: &MaterialRecord,
+    uv: &[[f32; 2]; 2],
+    base_color: Rgb,
+) -> BsdfParams {
+    let texture = |t, encoding| scene.texture(t, uv, encoding);
+    let rough_metal = texture(&material.metallic_roughness_texture, Encoding::Linear);
+    BsdfParams {
+        base_color,
+        metallic: material.metallic * rough_metal.rgb.b,
+        roughness: material.roughness * rough_metal.rgb.g,
+        ior: material.ior,
+        specular: material.specular * texture(&material.specular_texture, Encoding::Linear).a,
+        specular_color: material.specular_color
+            * texture(&material.specular_color_texture, Encoding::Srgb).rgb,
+        transmission: material.transmission * texture(&material.transmission_texture, Encoding::Linear).rgb.r,
+        thin: !material.has(flag::SOLID),
+        ..BsdfParams::default()
+    }
+}
+
+/// Smallest cosine between the shading normal and the viewer.
+const MIN_COS_VIEW: f32 = 1e-3;
+
+/// Shading frame: interpolated normal, turned by the normal map, on the side of the viewer.
+fn shading_frame(
+    scene: &CompiledScene,
+    material: &MaterialRecord,
+    it: &Interaction,
+    wo: Vec3,
+    ng: Vec3,
+) -> Frame {
+    let mut ns = it.ns;
+    if !material.normal_texture.is_none() && it.tangent.length_squared() > 0.0 {
+        let base = Frame::from_normal_tangent(ns, it.tangent);
+        let texel = scene.texture(&material.normal_texture, &it.uv, Encoding::Linear).rgb * 2.0 - Rgb::WHITE;
+        let (x, y) = (texel.r * material.normal_scale, texel.g * material.normal_scale);
+        let mapped = base.t * x + base.b * (y * it.bitangent_sign) + base.n * texel.b;
+        let mapped = mapped.normalize_or(ns);
+        // A map that points below the surface is flattened onto it.
+        ns = if mapped.dot(it.ng) > 0.0 {
+            mapped
+        } else {
+            (mapped - it.ng * mapped.dot(it.ng)).normalize_or(ns)
+        };
+    }
+    let ns = if it.front { ns } else { -ns };
+    // Interpolated normals may face away from a viewer who sees the triangle: bend them until they do not.
+    let cos = ns.dot(wo);
+    let ns = if cos < MIN_COS_VIEW { (ns + wo * (MIN_COS_VIEW - cos)).normalize_or(ng) } else { ns };
+    Frame::from_normal_tangent(ns, it.tangent)
+}

@@ -1,0 +1,148 @@
+//! Which camera a picture is taken with.
+
+use glam::{Affine3A, Mat4, Vec3};
+use lumbre_core::Camera;
+use lumbre_core::math::{atan2, sin_cos, tan};
+use lumbre_scene::{CompiledScene, Projection, Scene};
+
+/// Vertical field of view where nothing says otherwise, radians (45°).
+pub const DEFAULT_FOV: f32 = core::f32::consts::FRAC_PI_4;
+
+/// Which camera of the scene.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub enum CameraChoice {
+    /// The first one; the whole scene in view if there is none.
+    #[default]
+    Default,
+    /// By its place among those of the scene, from 0.
+    Index(usize),
+    /// By the name of the camera or of its node.
+    Name(String),
+}
+
+/// What the caller wants to see.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct CameraOptions {
+    /// Which of the scene's cameras.
+    pub choice: CameraChoice,
+    /// Eye; replaces the camera's place.
+    pub look_from: Option<Vec3>,
+    /// Point in the centre of the picture; replaces the camera's direction.
+    pub look_at: Option<Vec3>,
+    /// Vertical field of view, radians.
+    pub fov: Option<f32>,
+}
+
+/// A camera that was found, and where it came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundCamera {
+    /// The camera.
+    pub camera: Camera,
+    /// The scene had none, so the whole of it was put in view.
+    pub framed: bool,
+}
+
+/// The camera asked for is not in the scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no camera {wanted}; the scene has {}", list(.available))]
+pub struct NoSuchCamera {
+    /// What was asked for.
+    pub wanted: String,
+    /// Names of what there is.
+    pub available: Vec<String>,
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() { "none".into() } else { names.join(", ") }
+}
+
+/// A camera of the scene with its place in the world and its names.
+struct Placed<'a> {
+    camera: &'a lumbre_scene::Camera,
+    to_world: Mat4,
+    names: [&'a str; 2],
+}
+
+fn placed(scene: &Scene) -> Vec<Placed<'_>> {
+    let nodes = scene.world_nodes().into_iter();
+    nodes
+        .filter_map(|(id, to_world)| {
+            let node = &scene.nodes[id.index()];
+            let camera = scene.cameras.get(node.camera?.index())?;
+            Some(Placed { camera, to_world, names: [&camera.name, &node.name] })
+        })
+        .collect()
+}
+
+/// Names of the cameras of a scene in order: that of the camera, else of its node, else its number.
+pub fn camera_names(scene: &Scene) -> Vec<String> {
+    let name = |(i, p): (usize, Placed<'_>)| {
+        p.names.into_iter().find(|n| !n.is_empty()).map_or_else(|| i.to_string(), str::to_string)
+    };
+    placed(scene).into_iter().enumerate().map(name).collect()
+}
+
+/// Finds or makes the camera for a picture of this aspect (width over height).
+pub fn find_camera(
+    scene: &Scene,
+    compiled: &CompiledScene,
+    options: &CameraOptions,
+    aspect: f32,
+) -> Result<FoundCamera, NoSuchCamera> {
+    let cameras = placed(scene);
+    let missing = |wanted: String| NoSuchCamera { wanted, available: camera_names(scene) };
+    let chosen = match &options.choice {
+        CameraChoice::Default => cameras.first(),
+        CameraChoice::Index(i) => Some(cameras.get(*i).ok_or_else(|| missing(i.to_string()))?),
+        CameraChoice::Name(name) => {
+            let found = cameras.iter().find(|c| c.names.contains(&name.as_str()));
+            Some(found.ok_or_else(|| missing(format!("{name:?}")))?)
+        }
+    };
+    let (base, framed) = match chosen {
+        Some(p) => (from_scene(p, options.fov, aspect), false),
+        None => (frame(compiled, options.fov.unwrap_or(DEFAULT_FOV), aspect), true),
+    };
+    Ok(FoundCamera { camera: aimed(base, options), framed: framed && options.look_from.is_none() })
+}
+
+/// The authored camera. A picture wider than the author framed keeps the height of the view, a narrower one its width, so that
+/// nothing the author showed is cut off.
+fn from_scene(p: &Placed<'_>, fov: Option<f32>, aspect: f32) -> Camera {
+    let Projection::Perspective { yfov, aspect: authored } = p.camera.projection;
+    let mut camera = Camera::from_transform(Affine3A::from_mat4(p.to_world), fov.unwrap_or(yfov), aspect);
+    if let (Some(authored), None) = (authored.filter(|a| *a > 0.0), fov) {
+        camera.tan_half_fov_y *= (authored / aspect).max(1.0);
+    }
+    camera.lens_radius = p.camera.lens_radius;
+    camera.focus_distance = p.camera.focus_distance;
+    camera
+}
+
+/// Moves and turns a camera as the caller asked.
+fn aimed(base: Camera, options: &CameraOptions) -> Camera {
+    if options.look_from.is_none() && options.look_at.is_none() {
+        return base;
+    }
+    let eye = options.look_from.unwrap_or(base.origin);
+    let target = options.look_at.unwrap_or(eye + base.forward);
+    let turned = Camera::look_at(eye, target, Vec3::Y, 1.0, base.aspect);
+    Camera {
+        tan_half_fov_y: base.tan_half_fov_y,
+        lens_radius: base.lens_radius,
+        focus_distance: base.focus_distance,
+        ..turned
+    }
+}
+
+/// The whole scene in view, from its front (+z), a little from the right and from above.
+fn frame(compiled: &CompiledScene, fov: f32, aspect: f32) -> Camera {
+    let [min, max] = compiled.bounds.map(Vec3::from_array);
+    let (centre, radius) =
+        if min.cmpgt(max).any() { (Vec3::ZERO, 1.0) } else { (0.5 * (min + max), compiled.radius()) };
+    let half = (0.5 * fov).min(atan2(tan(0.5 * fov) * aspect, 1.0));
+    let distance = radius.max(1e-4) / sin_cos(half).0;
+    let ((se, ce), (sa, ca)) = (sin_cos(0.30), sin_cos(0.45));
+    let eye = centre + Vec3::new(ce * sa, se, ce * ca) * distance;
+    Camera::look_at(eye, centre, Vec3::Y, fov, aspect)
+}
