@@ -158,6 +158,11 @@ struct TriangleLeaf<'a, S: Simd, Q> {
 
 impl<S: Simd, Q: Query> Leaf for TriangleLeaf<'_, S, Q> {
     #[inline(always)]
+    fn address(&self, child: Child) -> *const u8 {
+        self.packets.as_ptr().wrapping_add(child.packet_range().0).cast()
+    }
+
+    #[inline(always)]
     unsafe fn visit(&mut self, child: Child, t_best: &mut f32) -> bool {
         let (first, count) = child.packet_range();
         debug_assert!(first + count <= self.packets.len());

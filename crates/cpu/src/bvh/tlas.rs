@@ -254,6 +254,11 @@ struct InstanceLeaf<'a, S, Q> {
 
 impl<S: Simd, Q: Query> Leaf for InstanceLeaf<'_, S, Q> {
     #[inline(always)]
+    fn address(&self, child: Child) -> *const u8 {
+        self.tlas.instances.as_ptr().wrapping_add(child.instance_index() as usize).cast()
+    }
+
+    #[inline(always)]
     unsafe fn visit(&mut self, child: Child, t_best: &mut f32) -> bool {
         let index = child.instance_index();
         debug_assert!((index as usize) < self.tlas.instances.len());

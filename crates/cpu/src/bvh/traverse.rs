@@ -2,7 +2,7 @@
 //!
 //! One walk serves both tree levels and both kinds of query; it is inlined into functions compiled for each SIMD level.
 
-use super::simd::{Near, Simd};
+use super::simd::{Near, Simd, prefetch};
 use super::wide::{Child, STACK, WideNode};
 use std::mem::MaybeUninit;
 
@@ -68,11 +68,20 @@ impl Stack {
 /// What to do at a leaf. Not a closure: those cannot be forced inline, and outside of the functions compiled for a SIMD
 /// level its kernels would be calls.
 pub(super) trait Leaf {
+    /// Where the data of a leaf lies, to have it brought into the cache early.
+    fn address(&self, child: Child) -> *const u8;
+
     /// May lower `t_best`, the distance up to which hits count; true ends the walk.
     ///
     /// # Safety
     /// `child` is a leaf of the tree that the implementation knows, and the processor supports its SIMD level.
     unsafe fn visit(&mut self, child: Child, t_best: &mut f32) -> bool;
+}
+
+/// Where an inner node lies.
+#[inline(always)]
+fn address(nodes: &[WideNode], child: Child) -> *const u8 {
+    nodes.as_ptr().wrapping_add(child.0 as usize).cast()
 }
 
 /// Visits the leaves that the ray may enter up to `t_best`, the nearest boxes first, until one returns true. With `ANY` the
@@ -108,7 +117,9 @@ pub(super) unsafe fn walk<S: Simd, const ANY: bool>(
             let mut take = || {
                 let lane = mask.trailing_zeros() as usize & 7;
                 mask &= mask - 1;
-                (entry(near.0[lane], node.children[lane]), mask)
+                let child = node.children[lane];
+                prefetch(if child.is_leaf() { leaf.address(child) } else { address(nodes, child) });
+                (entry(near.0[lane], child), mask)
             };
             let (first, rest) = take();
             if rest == 0 {
