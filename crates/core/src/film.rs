@@ -301,7 +301,7 @@ mod tests {
         };
         FilmSample {
             radiance: Rgb::new(unit(i, 0), 1e3 * unit(i, 1), unit(i, 2)),
-            first_hit: (i % 3 != 0).then_some(hit),
+            first_hit: (!i.is_multiple_of(3)).then_some(hit),
         }
     }
 

@@ -91,22 +91,22 @@ impl CpuBackend {
         &self.tlas
     }
 
-    fn tracer<'a>(&'a self, view: &'a View) -> Tracer<'a> {
-        Tracer {
+    fn shot<'a>(&'a self, view: &'a View, size: [u32; 2]) -> Shot<'a> {
+        let tracer = Tracer {
             scene: &self.scene,
             tlas: &self.tlas,
             camera_tlas: self.camera_tlas.as_ref(),
             settings: &view.settings,
-        }
+        };
+        let (filter, media) = (Filter::new(view.settings.filter), self.media_at(view.camera.origin));
+        Shot { tracer, view, filter, media, size }
     }
 
     /// Adds the samples of `range` to every pixel of `film`, which has the size of the picture. Stops between tiles when
     /// cancelled; pixels then differ in their sample counts. Returns what was done.
     pub fn render(&self, view: &View, range: Range<u32>, film: &mut Film, control: &dyn Control) -> Progress {
         let (width, height) = (film.width(), film.height());
-        let tracer = self.tracer(view);
-        let filter = Filter::new(view.settings.filter);
-        let media = self.media_at(view.camera.origin);
+        let shot = self.shot(view, [width, height]);
         let columns = width.div_ceil(TILE);
         let film = Mutex::new(film);
         let (samples, rays) = (AtomicU64::new(0), AtomicU64::new(0));
@@ -119,9 +119,8 @@ impl CpuBackend {
             let mut counter = RayCounter::default();
             for y in 0..part.height() {
                 for x in 0..part.width() {
-                    let pixel = Pixel { at: [at[0] + x, at[1] + y], size: [width, height] };
                     for index in range.clone() {
-                        let sample = trace_sample(&tracer, view, &filter, media, pixel, index, &mut counter);
+                        let sample = shot.sample([at[0] + x, at[1] + y], index, &mut counter);
                         part.add([x, y], index, &sample);
                     }
                 }
@@ -145,9 +144,7 @@ impl CpuBackend {
         index: u32,
         observer: &mut impl PathObserver,
     ) -> FilmSample {
-        let filter = Filter::new(view.settings.filter);
-        let media = self.media_at(view.camera.origin);
-        trace_sample(&self.tracer(view), view, &filter, media, Pixel { at: pixel, size }, index, observer)
+        self.shot(view, size).sample(pixel, index, observer)
     }
 
     /// The solids around a point: those that a ray to infinity leaves without having entered them.
@@ -185,27 +182,27 @@ impl CpuBackend {
     }
 }
 
-#[derive(Clone, Copy)]
-struct Pixel {
-    at: [u32; 2],
+/// What the samples of one picture have in common.
+struct Shot<'a> {
+    tracer: Tracer<'a>,
+    view: &'a View,
+    filter: Filter,
+    /// The media around the camera.
+    media: MediumStack,
+    /// Size of the picture.
     size: [u32; 2],
 }
 
-#[inline]
-fn trace_sample(
-    tracer: &Tracer<'_>,
-    view: &View,
-    filter: &Filter,
-    media: MediumStack,
-    pixel: Pixel,
-    index: u32,
-    observer: &mut impl PathObserver,
-) -> FilmSample {
-    let settings = &view.settings;
-    let sampler = Sampler::new(settings.sampler, settings.seed, view.frame, pixel.at, index);
-    let u = sampler.camera();
-    let offset = filter.sample(u.filter);
-    let film = [0, 1].map(|i| (pixel.at[i] as f32 + 0.5 + offset[i]) / pixel.size[i] as f32);
-    let ray = view.camera.ray(film, u.lens, u.time);
-    path::radiance(tracer, ray, media, &sampler, observer)
+impl Shot<'_> {
+    /// Takes sample `index` of a pixel.
+    #[inline]
+    fn sample(&self, pixel: [u32; 2], index: u32, observer: &mut impl PathObserver) -> FilmSample {
+        let settings = &self.view.settings;
+        let sampler = Sampler::new(settings.sampler, settings.seed, self.view.frame, pixel, index);
+        let u = sampler.camera();
+        let offset = self.filter.sample(u.filter);
+        let film = [0, 1].map(|i| (pixel[i] as f32 + 0.5 + offset[i]) / self.size[i] as f32);
+        let ray = self.view.camera.ray(film, u.lens, u.time);
+        path::radiance(&self.tracer, ray, self.media, &sampler, observer)
+    }
 }

@@ -266,10 +266,8 @@ impl<O: PathObserver> Path<'_, '_, O> {
         self.depth += 1;
         let origin = offset_ray_origin(it.p, it.ng, wi);
         self.ray = Ray::new(origin, wi, self.ray.time);
-        if s.lobe.is_transmission() {
-            if let Some(beyond) = surface.beyond {
-                self.media.cross(beyond, it.material, it.front);
-            }
+        if let Some(beyond) = surface.beyond.filter(|_| s.lobe.is_transmission()) {
+            self.media.cross(beyond, it.material, it.front);
         }
         match s.lobe {
             // The direction did not change: to light sampling the last vertex still sees what comes.

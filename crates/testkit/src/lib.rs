@@ -1,4 +1,5 @@
 //! Test tools of Lumbre: statistical tests of samplers and models, reference quadratures, scene builders.
+#![forbid(unsafe_code)]
 
 pub mod bsdf_rows;
 pub mod bsdf_tables;

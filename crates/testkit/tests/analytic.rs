@@ -12,9 +12,6 @@ use lumbre_testkit::shapes::{
     add, bumpy_icosphere, cuboid, disc, icosphere, inside_out, rectangle, smooth_icosphere,
 };
 
-/// Enough for a relative error of 0.1 % where a sample's spread is about its mean.
-const SAMPLES: u32 = 1 << 19;
-
 fn furnace() -> Scene {
     let environment = Environment { background: Background::Constant(grey(1.0)), ..Environment::default() };
     Scene { environment, ..Scene::default() }
@@ -33,11 +30,12 @@ fn variants(base: RenderSettings) -> [(&'static str, RenderSettings); 4] {
 /// Checks a scene in every variant. Lights that cannot be hit are only found with light sampling.
 fn check(scene: &Scene, camera: Camera, base: RenderSettings, expected: f64, what: &str) {
     let has_delta_lights = !scene.lights.is_empty();
+    let backend = prepare(scene);
     for (name, settings) in variants(base) {
         if has_delta_lights && !settings.light_sampling {
             continue;
         }
-        radiance(scene, camera, settings, SAMPLES).assert_is(expected, &format!("{what}, {name}"));
+        radiance(&backend, camera, settings).assert_is(expected, &format!("{what}, {name}"));
     }
 }
 

@@ -27,12 +27,14 @@ const FIRST_ROUGHNESS: f32 = 0.031_622_776;
 /// Width at row `k`, which may be fractional, for the quadrature.
 pub fn alpha_of_row(k: f64) -> f64 {
     let first = f64::from(ALPHA_SMOOTH).sqrt();
-    (first + (1.0 - first) * k / (N_ALPHA - 1) as f64).powi(2)
+    let roughness = first + (1.0 - first) * k / (N_ALPHA - 1) as f64;
+    roughness * roughness
 }
 
 /// Cosine of column `j` in a row with warp `w`, for the quadrature.
 pub fn mu_of_column(j: usize, w: f64) -> f64 {
-    let x = (j as f64 / (N_MU - 1) as f64).powi(2);
+    let x = j as f64 / (N_MU - 1) as f64;
+    let x = x * x;
     w * x / (1.0 + w - x)
 }
 
