@@ -76,7 +76,7 @@ impl Tracer<'_> {
         };
         // Most rays meet nothing transmissive: look for what blocks first.
         let mut meets_transmissive = false;
-        let blocked = self.tlas.any_hit(&ray, |hit| {
+        let blocked = self.accel.any_hit(&ray, |hit| {
             if !self.covered(hit, key) {
                 return false;
             }
@@ -101,7 +101,7 @@ impl Tracer<'_> {
         let mut factor = Spectrum::WHITE;
         let mut ray = ray;
         for _ in 0..MOST_SURFACES {
-            let Some(hit) = self.tlas.closest_hit(&ray, |hit| self.covered(hit, key)) else {
+            let Some(hit) = self.accel.closest_hit(&ray, |hit| self.covered(hit, key)) else {
                 return factor * media.current().transmittance(ray.t_max - ray.t_min);
             };
             let it = Interaction::new(self.scene, &ray, &hit);

@@ -30,7 +30,7 @@ pub trait Backend: Send + Sync {
 
 impl Backend for CpuBackend {
     fn device(&self) -> String {
-        format!("CPU ({}, {} threads)", self.tlas().level().name(), rayon::current_num_threads())
+        format!("CPU ({}, {} threads)", self.accel().level().name(), rayon::current_num_threads())
     }
 
     fn render(&self, view: &View, samples: Range<u32>, film: &mut Film, control: &dyn Control) -> Progress {
