@@ -3,7 +3,7 @@
 
 use crate::accel::Accel;
 use crate::bvh::{Hit, SimdLevel};
-use crate::interaction::{Interaction, geometric_normal, material_of};
+use crate::interaction::{Interaction, material_of};
 use crate::observer::{PathObserver, RayCounter};
 use crate::path;
 use crate::surface::medium;
@@ -14,7 +14,6 @@ use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::{Film, FilmSample};
 use lumbre_core::filter::Filter;
 use lumbre_core::medium::{Medium, MediumStack};
-use lumbre_core::ray::offset_ray_origin;
 use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::View;
 use lumbre_scene::CompiledScene;
@@ -124,13 +123,12 @@ impl CpuBackend {
             let Some(hit) = self.accel.closest_hit(&ray, is_solid) else { break };
             let id = material_of(&self.scene, &hit);
             let material = &self.scene.materials[id as usize];
-            let p = Interaction::new(&self.scene, &ray, &hit).p;
-            let ng = geometric_normal(&self.scene, &hit);
-            ray.origin = offset_ray_origin(p, ng, dir);
+            let it = Interaction::new(&self.scene, &ray, &hit);
+            ray.origin = it.leave(dir);
             if !material.has(flag::SOLID) {
                 continue; // opaque instances do not ask the filter
             }
-            if ng.dot(dir) < 0.0 {
+            if it.front {
                 entered.push(id);
             } else if let Some(i) = entered.iter().rposition(|&e| e == id) {
                 entered.remove(i);

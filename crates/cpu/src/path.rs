@@ -13,7 +13,6 @@ use lumbre_core::bsdf::{BsdfSample, Lobe, TransportMode};
 use lumbre_core::film::{FilmSample, FirstHit};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::mis::power_heuristic;
-use lumbre_core::ray::offset_ray_origin;
 use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::{RenderSettings, TransmissiveShadows};
 use lumbre_core::{Ray, Spectrum};
@@ -246,8 +245,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
             media.cross(beyond, it.material, it.front);
         }
         let shadow = ShadowRay {
-            p: it.p,
-            ng: it.ng,
+            origin: it.leave(light.wi),
             wi: light.wi,
             end: light.end,
             time: self.ray.time,
@@ -264,8 +262,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
         self.beta *= s.weight;
         self.eta_scale *= s.eta_scale;
         self.depth += 1;
-        let origin = offset_ray_origin(it.p, it.ng, wi);
-        self.ray = Ray::new(origin, wi, self.ray.time);
+        self.ray = Ray::new(it.leave(wi), wi, self.ray.time);
         if let Some(beyond) = surface.beyond.filter(|_| s.lobe.is_transmission()) {
             self.media.cross(beyond, it.material, it.front);
         }

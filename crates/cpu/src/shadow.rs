@@ -14,10 +14,8 @@ use lumbre_scene::compiled::material::flag;
 /// A straight line to a light.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowRay {
-    /// From here.
-    pub p: Vec3,
-    /// Geometric normal there.
-    pub ng: Vec3,
+    /// From here, already off the surface.
+    pub origin: Vec3,
     /// Unit direction to the light.
     pub wi: Vec3,
     /// Where it ends.
@@ -43,17 +41,19 @@ pub enum ShadowEnd {
         point: Vec3,
         /// Its geometric normal, either side.
         ng: Vec3,
+        /// Bound of the distance to the vertices of its triangle, metres.
+        extent: f32,
     },
 }
 
 impl ShadowRay {
     fn ray(&self) -> Ray {
-        let origin = offset_ray_origin(self.p, self.ng, self.wi);
+        let origin = self.origin;
         match self.end {
             ShadowEnd::Distance(d) => Ray { t_max: d, ..Ray::new(origin, self.wi, self.time) },
-            ShadowEnd::Surface { point, ng } => {
+            ShadowEnd::Surface { point, ng, extent } => {
                 // Both ends leave their surfaces towards each other, so neither is in the way.
-                let to = offset_ray_origin(point, ng, -self.wi) - origin;
+                let to = offset_ray_origin(point, ng, -self.wi, extent) - origin;
                 let d = to.length();
                 let dir = if d > 0.0 { to / d } else { self.wi };
                 Ray { t_max: d, ..Ray::new(origin, dir, self.time) }
