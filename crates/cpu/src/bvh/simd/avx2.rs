@@ -14,7 +14,8 @@ pub(in crate::bvh) struct RayAvx2 {
     near: [__m256; 3],
     far: [__m256; 3],
     t_min: __m256,
-    near_row: [usize; 3],
+    /// Byte offsets of the near planes; those of the far ones differ in the bit of 32.
+    near_at: [usize; 3],
     pub(super) triangle: TriangleRay,
 }
 
@@ -23,7 +24,8 @@ pub(in crate::bvh) struct TriangleRay {
     origin: [__m128; 3],
     shear: [__m128; 3],
     t_min: __m128,
-    axes: [usize; 3],
+    /// Byte offsets of the axes in a vertex.
+    axes_at: [usize; 3],
 }
 
 impl Simd for Avx2 {
@@ -38,7 +40,7 @@ impl Simd for Avx2 {
                 near: splat(ray.near),
                 far: splat(ray.far),
                 t_min: _mm256_set1_ps(ray.t_min),
-                near_row: ray.near_row,
+                near_at: [32 * ray.near_row[0], 32 * ray.near_row[1], 32 * ray.near_row[2]],
                 triangle: triangle_ray(ray),
             }
         }
@@ -46,16 +48,17 @@ impl Simd for Avx2 {
 
     #[inline(always)]
     unsafe fn boxes(node: &WideNode, ray: &RayAvx2, t_best: f32, near: &mut Near) -> u32 {
-        // SAFETY: the caller vouches for AVX2; rows are 32 bytes of a node aligned to 64, and row numbers are below 6.
+        // SAFETY: the caller vouches for AVX2; `near_at` holds offsets of rows, and flipping the bit leads to their twins.
         unsafe {
-            let [nx, ny, nz] = ray.near_row;
+            let [nx, ny, nz] = ray.near_at;
+            let [fx, fy, fz] = [nx ^ 32, ny ^ 32, nz ^ 32];
             let [rx, ry, rz] = ray.rdir;
             let enter_x = _mm256_fmsub_ps(row(node, nx), rx, ray.near[0]);
             let enter_y = _mm256_fmsub_ps(row(node, ny), ry, ray.near[1]);
             let enter_z = _mm256_fmsub_ps(row(node, nz), rz, ray.near[2]);
-            let leave_x = _mm256_fmsub_ps(row(node, nx ^ 1), rx, ray.far[0]);
-            let leave_y = _mm256_fmsub_ps(row(node, ny ^ 1), ry, ray.far[1]);
-            let leave_z = _mm256_fmsub_ps(row(node, nz ^ 1), rz, ray.far[2]);
+            let leave_x = _mm256_fmsub_ps(row(node, fx), rx, ray.far[0]);
+            let leave_y = _mm256_fmsub_ps(row(node, fy), ry, ray.far[1]);
+            let leave_z = _mm256_fmsub_ps(row(node, fz), rz, ray.far[2]);
             let t0 = _mm256_max_ps(_mm256_max_ps(enter_x, enter_y), _mm256_max_ps(enter_z, ray.t_min));
             let t1 = _mm256_min_ps(
                 _mm256_min_ps(leave_x, leave_y),
@@ -82,12 +85,12 @@ pub(super) unsafe fn splat(v: [f32; 3]) -> [__m256; 3] {
 }
 
 /// # Safety
-/// See [`splat`]; `i < 6`.
+/// See [`splat`]; `at` is the byte offset of a row.
 #[inline(always)]
-pub(super) unsafe fn row(node: &WideNode, i: usize) -> __m256 {
-    debug_assert!(i < 6);
-    // SAFETY: the caller vouches for AVX2 and `i`; rows are 32 bytes long in a node aligned to 64.
-    unsafe { _mm256_load_ps(node.planes.as_ptr().add(i).cast()) }
+pub(super) unsafe fn row(node: &WideNode, at: usize) -> __m256 {
+    debug_assert!(at < 192 && at.is_multiple_of(32));
+    // SAFETY: the caller vouches for AVX2 and `at`; rows are 32 bytes long in a node aligned to 64.
+    unsafe { _mm256_load_ps(node.planes.as_ptr().byte_add(at).cast()) }
 }
 
 /// # Safety
@@ -101,7 +104,7 @@ pub(super) unsafe fn triangle_ray(ray: &TravRay) -> TriangleRay {
             origin: [_mm_set1_ps(ray.origin[x]), _mm_set1_ps(ray.origin[y]), _mm_set1_ps(ray.origin[z])],
             shear: [_mm_set1_ps(ray.shear[0]), _mm_set1_ps(ray.shear[1]), _mm_set1_ps(ray.shear[2])],
             t_min: _mm_set1_ps(ray.t_min),
-            axes: ray.axes,
+            axes_at: [16 * x, 16 * y, 16 * z],
         }
     }
 }
@@ -115,9 +118,9 @@ unsafe fn vertex(packet: &Packet, ray: &TriangleRay, v: usize) -> [__m128; 3] {
     // SAFETY: the caller vouches for AVX2 and `v`; axes are below 3, and rows are 16 bytes long in a packet aligned to 32.
     unsafe {
         let rows = packet.rows.as_ptr().add(3 * v);
-        let x = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[0]).cast()), ray.origin[0]);
-        let y = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[1]).cast()), ray.origin[1]);
-        let z = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[2]).cast()), ray.origin[2]);
+        let x = _mm_sub_ps(_mm_load_ps(rows.byte_add(ray.axes_at[0]).cast()), ray.origin[0]);
+        let y = _mm_sub_ps(_mm_load_ps(rows.byte_add(ray.axes_at[1]).cast()), ray.origin[1]);
+        let z = _mm_sub_ps(_mm_load_ps(rows.byte_add(ray.axes_at[2]).cast()), ray.origin[2]);
         [
             _mm_sub_ps(x, _mm_mul_ps(ray.shear[0], z)),
             _mm_sub_ps(y, _mm_mul_ps(ray.shear[1], z)),
