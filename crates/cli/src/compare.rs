@@ -63,7 +63,7 @@ fn measure(reference: Picture, test: Picture, exposure: Exposure) -> Result<Figu
     let hdr = both_hdr(&reference, &test);
     // What a screen shows: HDR pictures at one exposure, that of the reference if it is HDR; the others as they are.
     let exposed = [&reference, &test].into_iter().find(|p| p.1 == Range::Scene);
-    let factor = exposed.map(|p| exposure.factor(&p.0.pixels));
+    let factor = exposed.map(|p| exposure.factor(&p.0.pixels, p.0.width as usize));
     let shown = |(image, range): &Picture| match factor {
         Some(factor) if *range == Range::Scene => exposed_image(image, factor, !hdr),
         _ => image.clone(),

@@ -95,7 +95,7 @@ fn same_file(a: &Path, b: &Path) -> bool {
 
 fn write_png(path: &Path, film: &Film, exposure: Exposure) -> Result<(), io::IoError> {
     if !matches!(exposure, Exposure::Ev(_)) {
-        let ev = exposure.factor(&film.radiance()).log2();
+        let ev = exposure.factor(&film.radiance(), film.width() as usize).log2();
         console::note(format_args!("exposure: {ev:+.2} EV"));
     }
     io::write_png(path, film.width(), film.height(), &output::to_srgb8(film, exposure))
