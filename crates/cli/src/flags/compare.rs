@@ -7,18 +7,23 @@ use std::path::PathBuf;
 
 /// Shown below the flags.
 pub(crate) const EXAMPLES: &str = "\
-Two HDR pictures (.exr, .hdr): rmse, relmse and hdr-flip are of their radiance; psnr and ldr-flip are of what a screen shows
-after --exposure, the same factor, found from the reference, for both. Two pictures for a screen (.png, .jpg): all figures are
-of their linearised values, and there is no hdr-flip. One of each: the HDR one is first brought to the screen by --exposure.
+Two HDR pictures (.exr, .hdr): rmse, relmse and hdr-flip are of their radiance; psnr and
+ldr-flip are of what a screen shows after --exposure, the same factor for both, found from
+the reference. Two pictures for a screen (.png, .jpg): all figures are of their linearised
+values, and there is no hdr-flip. One of each: the HDR one is first brought to the screen by
+--exposure.
 
 Examples:
   lumbre compare reference.exr picture.exr
   lumbre compare reference.exr picture.exr -o difference.png
       dark where they look the same, yellow where they differ
   lumbre compare reference.png picture.png --fail-above ldr-flip=0.05 --fail-above rmse=0.02
-      for tests: exit code 1 when a figure is above its bound, or the picture has pixels that are no numbers
+      for tests: exit code 1 when a figure is above its bound, or TEST has pixels that are
+      no numbers
 
-Exit codes: 0 done, 1 above a bound, 2 wrong usage, 65 bad data or different sizes, 66 cannot open, 74 cannot write.";
+Exit codes:
+  0 done, 1 above a bound, 2 wrong usage, 65 bad data or different sizes, 66 cannot open,
+  74 cannot write";
 
 /// Flags of `lumbre compare`.
 #[derive(Args, Debug)]
