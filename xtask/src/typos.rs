@@ -4,6 +4,9 @@
 use crate::tree;
 use std::collections::HashSet;
 
+/// Letters of the shortest word that is checked: two letters are an abbreviation.
+const SHORTEST: usize = 3;
+
 /// Checks the whole tree.
 ///
 /// # Errors
@@ -31,7 +34,7 @@ fn allowed_words(list: &str) -> HashSet<String> {
 /// The misspelt words of a line with their corrections.
 fn misspelt<'a>(line: &'a str, allowed: &HashSet<String>) -> Vec<(&'a str, Vec<&'static str>)> {
     words(line)
-        .filter(|word| !allowed.contains(&word.to_lowercase()))
+        .filter(|word| word.chars().count() >= SHORTEST && !allowed.contains(&word.to_lowercase()))
         .filter_map(|word| {
             let corrections = typos_dict::WORD.find(&word.into())?;
             Some((word, corrections.to_vec()))
@@ -79,7 +82,7 @@ mod tests {
             assert_eq!(found.len(), 1, "{line}");
             assert_eq!(found[0].1, ["receive"]);
         }
-        assert!(misspelt("to receive the colour or color", &none).is_empty());
+        assert!(misspelt("to receive the colour or color, fo", &none).is_empty());
     }
 
     fn capital() -> String {

@@ -1,7 +1,7 @@
 //! Fresnel reflectance of smooth interfaces, unpolarised, and Snell's law.
 //!
 //! `eta` is always the index on the far side over the index on the side of the ray. Sources: Born and Wolf 1999, 1.5.2 and
-//! 14.2; Walter et al. 2007, eq. 22 (the same law without the refracted angle); Schlick 1994, eq. 15. Left out:
+//! 14.2; Walter et al. 2007, eq. 22 (the same law without the refracted angle); Schlick 1994. Left out:
 //! polarisation and thin films.
 
 use crate::math::{Vec3, safe_sqrt, sqr};

@@ -7,6 +7,7 @@
 mod error;
 mod files;
 mod gltf;
+mod guard;
 mod image;
 mod limits;
 mod open;

@@ -32,7 +32,7 @@ impl Backend for CpuBackend {
     fn device(&self) -> String {
         let threads = rayon::current_num_threads();
         let plural = if threads == 1 { "" } else { "s" };
-        format!("CPU ({}, {threads} thread{plural})", self.tlas().level().name())
+        format!("CPU ({}, {threads} thread{plural})", self.accel().level().name())
     }
 
     fn render(&self, view: &View, samples: Range<u32>, film: &mut Film, control: &dyn Control) -> Progress {

@@ -44,7 +44,8 @@ pub(super) fn read_all(files: Vec<(String, String)>) -> Result<Vec<Source>, Stri
 }
 
 impl Source {
-    /// Parses one file. Files in `tests/` and `benches/` folders of a crate are test code.
+    /// Parses one file. Files in `tests/`, `benches/` and `examples/` of a crate are test code:
+    /// nothing in them reaches a user.
     ///
     /// # Errors
     /// Where it is not Rust.
@@ -56,7 +57,7 @@ impl Source {
         let mut tests = TestCode { folder: module_folder(path), lines: Vec::new(), modules: Vec::new() };
         tests.visit_file(&syntax);
         let inside = path.splitn(3, '/').nth(2).unwrap_or_default();
-        let all_test = inside.starts_with("tests/") || inside.starts_with("benches/");
+        let all_test = ["tests/", "benches/", "examples/"].iter().any(|folder| inside.starts_with(folder));
         let path = path.to_owned();
         Ok(Source {
             path,
@@ -198,6 +199,8 @@ mod tests {
         let lines: Vec<bool> = (1..=7).map(|line| s.is_test(line)).collect();
         assert_eq!(lines, [false, true, true, true, true, false, false]);
         assert!(source("crates/core/tests/a.rs", text).is_test(1));
+        assert!(source("crates/core/examples/a/main.rs", text).is_test(1));
+        assert!(!source("crates/core/src/tests_of_it.rs", text).is_test(1));
     }
 
     #[test]

@@ -17,11 +17,11 @@ pub(super) fn outside_its_places(source: &Source) -> Vec<Finding> {
 /// The root of a crate without a place says `#![forbid(unsafe_code)]`.
 pub(super) fn not_forbidden_by_crate_root(source: &Source) -> Vec<Finding> {
     let Some((folder, file)) = source.path.rsplit_once('/') else { return Vec::new() };
-    let is_root =
-        (folder.ends_with("/src") && ["lib.rs", "main.rs"].contains(&file)) || folder.ends_with("/src/bin");
+    let is_library_or_main = folder.ends_with("/src") && ["lib.rs", "main.rs"].contains(&file);
+    let is_program = folder.ends_with("/src/bin") || (folder.contains("/src/bin/") && file == "main.rs");
     let has_place = PLACES.iter().any(|place| place.starts_with(&format!("{folder}/")));
     let forbids = source.find(&["#", "!", "[", "forbid", "(", "unsafe_code", ")", "]"]).next().is_some();
-    if !is_root || has_place || forbids {
+    if !(is_library_or_main || is_program) || has_place || forbids {
         return Vec::new();
     }
     vec![source.finding(1, "the crate root lacks #![forbid(unsafe_code)]")]
@@ -57,6 +57,9 @@ mod tests {
         assert_eq!(found("crates/core/src/lib.rs", "mod a;"), 1);
         assert_eq!(found("crates/core/src/lib.rs", "#![deny(unsafe_code)]"), 1);
         assert_eq!(found("xtask/src/main.rs", "fn main() {}"), 1);
+        assert_eq!(found("crates/testkit/src/bin/tool.rs", "fn main() {}"), 1);
+        assert_eq!(found("crates/testkit/src/bin/tool/main.rs", "fn main() {}"), 1);
+        assert_eq!(found("crates/testkit/src/bin/tool/part.rs", "fn f() {}"), 0);
         assert_eq!(found("crates/core/src/lib.rs", "#![forbid(unsafe_code)]\nmod a;"), 0);
         assert_eq!(found("crates/core/src/a.rs", "mod a;"), 0);
         assert_eq!(found("crates/cpu/src/lib.rs", "mod bvh;"), 0);

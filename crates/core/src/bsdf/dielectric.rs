@@ -4,8 +4,9 @@
 //! wi. `eta` is the index on the other side over the index on the side of `wo`, which is always +z. The base colour tints what crosses.
 //!
 //! In [`TransportMode::Radiance`] what crosses is scaled by (ηi/ηt)² = 1/eta², as radiance is compressed into a narrower
-//! cone (Veach 1997, 5.2). Light scattered more than once between microfacets is left out: the white
-//! furnace of a rough boundary lies between its tested lower bound (testkit `bsdf_energy`) and 1.
+//! cone (Veach 1997, 5.2). Light scattered more than once between microfacets is left out, so a rough boundary loses light:
+//! the white furnace at ior 1.5, worst angle of either side, keeps at least 0.86 up to roughness 0.3, 0.78 at 0.5, 0.60 at 0.75, 0.35 at 1
+//! (tested: testkit `bsdf_energy`), and never gains any.
 
 use super::compensation::Rough;
 use super::{BsdfSample, Lobe, TransportMode};

@@ -15,6 +15,9 @@ use crate::math::{INV_PI, Vec3};
 use crate::microfacet::reflect;
 use crate::rgb::Spectrum;
 
+/// Smallest probability with which the interface is chosen.
+const MIN_PROB: f32 = 1e-7;
+
 /// A dielectric interface over a diffuse base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DielectricBase {
@@ -92,8 +95,9 @@ impl DielectricBase {
     fn prob_specular(&self, at_o: Directional) -> f32 {
         let specular = at_o.reflected(self.f0_mean, self.f90);
         let diffuse = self.rho_mean * at_o.passed(self.f0_max, self.f90);
-        let sum = specular + diffuse;
-        if sum > 0.0 { specular / sum } else { 0.0 }
+        let prob = specular / (specular + diffuse);
+        // Shares that no random number can meet are dropped, 0/0 (nothing reflects) with them.
+        if prob > MIN_PROB { prob } else { 0.0 }
     }
 
     /// f · cos θi and density. Directions as in [`super::Bsdf`], `wo.z > 0`.

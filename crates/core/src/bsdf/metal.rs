@@ -44,10 +44,12 @@ impl Metal {
         self.rough.is_some()
     }
 
-    /// Hemispherical reflectance, approximately.
+    /// Hemispherical albedo.
     #[inline]
     pub fn albedo(&self) -> Spectrum {
-        average_reflectance(self.f0)
+        let Some(rough) = &self.rough else { return average_reflectance(self.f0) };
+        let average = rough.surface.albedo.average();
+        self.f0.map(|f0| average.reflected(f0, 1.0)) + rough.f_ms * average.deficit
     }
 
     /// f · cos θi and density. Directions as in [`super::Bsdf`], `wo.z > 0`.

@@ -134,37 +134,43 @@ pub struct Bsdf {
 
 impl Bsdf {
     /// The surface with the given parameters.
+    #[inline]
     pub fn new(params: &BsdfParams) -> Self {
         let base_color = params.base_color.map(unit_interval);
         let (metallic, transmission) = (unit_interval(params.metallic), unit_interval(params.transmission));
-        let specular = unit_interval(params.specular);
-        let dielectric = 1.0 - metallic;
-        let weights = [metallic, dielectric * (1.0 - transmission), dielectric * transmission];
-        if weights[1] == 1.0 && specular == 0.0 {
+        let weights = [metallic, (1.0 - metallic) * (1.0 - transmission), (1.0 - metallic) * transmission];
+        if weights[1] == 1.0 && params.specular <= 0.0 {
             return Bsdf::lambert(base_color, params.diffuse_sampling);
         }
         let rough = Rough::new(params.roughness);
-        let make = |k: usize| match k {
-            0 => Model::Metal(Metal::new(base_color, rough)),
-            1 => {
-                let tint = params.specular_color.map(|c| (f0_from_ior(params.ior) * c.max(0.0)).min(1.0));
-                let f0 = tint * specular;
-                Model::Base(DielectricBase::new(base_color, f0, specular, rough, params.diffuse_sampling))
+        // Most surfaces are of one kind.
+        for (weight, term) in weights.into_iter().zip(TERMS) {
+            if weight == 1.0 {
+                return Bsdf::single(term(params, base_color, rough));
             }
-            _ if params.thin => Model::Thin(Thin::new(params.ior, base_color, rough)),
-            _ => Model::Solid(Dielectric::new(params.eta, base_color, rough)),
-        };
-        let mut terms = (0..3).filter(|&k| weights[k] > 0.0).map(|k| Component {
-            model: make(k),
-            weight: weights[k],
-            prob: 1.0,
-        });
+        }
+        Bsdf::mixed(params, weights, base_color, rough)
+    }
+
+    #[inline]
+    fn single(model: Model) -> Self {
+        Bsdf { first: Component { model, weight: 1.0, prob: 1.0 }, others: [None; 2] }
+    }
+
+    /// Two or three terms.
+    fn mixed(params: &BsdfParams, weights: [f32; 3], base_color: Spectrum, rough: Option<Rough>) -> Self {
+        let mut terms =
+            weights.into_iter().zip(TERMS).filter(|(weight, _)| *weight > 0.0).map(|(weight, term)| {
+                let model = term(params, base_color, rough);
+                Component { model, weight, prob: weight * (model.albedo().average() + ALBEDO_FLOOR) }
+            });
         // The weights sum to 1, so at least one term exists.
         let first = terms.next().expect("weights sum to 1");
-        let others = [terms.next(), terms.next()];
-        let mut bsdf = Bsdf { first, others };
-        if bsdf.others[0].is_some() {
-            bsdf.set_probabilities();
+        let mut bsdf = Bsdf { first, others: [terms.next(), terms.next()] };
+        let sum: f32 = bsdf.components().map(|c| c.prob).sum();
+        bsdf.first.prob /= sum;
+        for c in bsdf.others.iter_mut().flatten() {
+            c.prob /= sum;
         }
         bsdf
     }
@@ -173,27 +179,12 @@ impl Bsdf {
     #[inline]
     pub fn lambert(albedo: Spectrum, sampling: DiffuseSampling) -> Self {
         let base = DielectricBase::new(albedo, Spectrum::BLACK, 0.0, None, sampling);
-        Bsdf { first: Component { model: Model::Base(base), weight: 1.0, prob: 1.0 }, others: [None; 2] }
-    }
-
-    fn set_probabilities(&mut self) {
-        let mut sum = 0.0;
-        for c in self.components_mut() {
-            c.prob = c.weight * (c.model.albedo().average() + ALBEDO_FLOOR);
-            sum += c.prob;
-        }
-        for c in self.components_mut() {
-            c.prob /= sum;
-        }
+        Bsdf::single(Model::Base(base))
     }
 
     #[inline]
     fn components(&self) -> impl Iterator<Item = &Component> {
         core::iter::once(&self.first).chain(self.others.iter().flatten())
-    }
-
-    fn components_mut(&mut self) -> impl Iterator<Item = &mut Component> {
-        core::iter::once(&mut self.first).chain(self.others.iter_mut().flatten())
     }
 
     #[inline]
@@ -294,8 +285,36 @@ impl Bsdf {
     }
 }
 
+/// Makes a term from the parameters, the clamped base colour and the interface.
+type Term = fn(&BsdfParams, Spectrum, Option<Rough>) -> Model;
+
+/// The terms of the mixture in the order of their weights.
+const TERMS: [Term; 3] = [metal, base, transmissive];
+
+#[inline]
+fn metal(_: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
+    Model::Metal(Metal::new(base_color, rough))
+}
+
+#[inline]
+fn base(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
+    let specular = unit_interval(params.specular);
+    let normal = f0_from_ior(params.ior);
+    let f0 = params.specular_color.map(|c| unit_interval(normal * c) * specular);
+    Model::Base(DielectricBase::new(base_color, f0, specular, rough, params.diffuse_sampling))
+}
+
+#[inline]
+fn transmissive(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
+    if params.thin {
+        Model::Thin(Thin::new(params.ior, base_color, rough))
+    } else {
+        Model::Solid(Dielectric::new(params.eta, base_color, rough))
+    }
+}
+
 /// Clamps to [0, 1]; NaN becomes 0.
 #[inline]
 fn unit_interval(x: f32) -> f32 {
-    x.max(0.0).min(1.0)
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }

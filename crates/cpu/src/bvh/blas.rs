@@ -112,10 +112,7 @@ impl Blas {
                 query,
                 ended: false,
             };
-            match Q::ANY {
-                true => walk::<S, true>(&self.nodes, root, &wide, t_best, &mut leaf),
-                false => walk::<S, false>(&self.nodes, root, &wide, t_best, &mut leaf),
-            }
+            walk::<S>(&self.nodes, root, &wide, t_best, &mut leaf);
             leaf.ended
         }
     }
@@ -157,6 +154,11 @@ struct TriangleLeaf<'a, S: Simd, Q> {
 }
 
 impl<S: Simd, Q: Query> Leaf for TriangleLeaf<'_, S, Q> {
+    #[inline(always)]
+    fn address(&self, child: Child) -> *const u8 {
+        self.packets.as_ptr().wrapping_add(child.packet_range().0).cast()
+    }
+
     #[inline(always)]
     unsafe fn visit(&mut self, child: Child, t_best: &mut f32) -> bool {
         let (first, count) = child.packet_range();

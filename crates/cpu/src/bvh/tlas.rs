@@ -228,10 +228,7 @@ impl Tlas {
             let Some(world) = TravRay::new(ray.origin, ray.dir, ray.t_min, &self.bounds, margin) else {
                 return;
             };
-            match Q::ANY {
-                true => walk::<S, true>(&self.nodes, root, &S::ray(&world), &mut t_best, &mut leaf),
-                false => walk::<S, false>(&self.nodes, root, &S::ray(&world), &mut t_best, &mut leaf),
-            }
+            walk::<S>(&self.nodes, root, &S::ray(&world), &mut t_best, &mut leaf);
         }
     }
 
@@ -253,6 +250,11 @@ struct InstanceLeaf<'a, S, Q> {
 }
 
 impl<S: Simd, Q: Query> Leaf for InstanceLeaf<'_, S, Q> {
+    #[inline(always)]
+    fn address(&self, child: Child) -> *const u8 {
+        self.tlas.instances.as_ptr().wrapping_add(child.instance_index() as usize).cast()
+    }
+
     #[inline(always)]
     unsafe fn visit(&mut self, child: Child, t_best: &mut f32) -> bool {
         let index = child.instance_index();

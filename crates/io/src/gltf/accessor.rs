@@ -78,6 +78,13 @@ impl<'a> Accessors<'a> {
         Ok(self.accessor(index, place)?.count.0)
     }
 
+    /// Checks that the buffer's bytes bear out the count of an accessor of three lanes, and returns it.
+    pub(super) fn checked_count(&self, index: usize, place: &dyn Fn() -> String) -> Result<usize, IoError> {
+        let form = self.form(index, &[3], place)?;
+        self.elements(index, &form)?;
+        Ok(form.count)
+    }
+
     /// Whether an accessor has bytes of its own. (Those of compressed meshes do not.)
     pub(super) fn has_data(&self, index: usize) -> bool {
         self.doc.root.accessors.get(index).is_some_and(|a| a.buffer_view.is_some() || a.sparse.is_some())

@@ -71,20 +71,22 @@ impl Reader<'_> {
     /// The number of vertices, which all attributes must share.
     fn vertex_count(&self, position: usize) -> Result<usize, IoError> {
         let here = || format!("{}/attributes", self.place);
-        let count = self.accessors.count(position, &here)?;
+        // Checked before anything is made as long as it.
+        let at = || format!("{}/POSITION", here());
+        let count = self.accessors.checked_count(position, &at)?;
         for (semantic, index) in &self.json.attributes {
             let other = self.accessors.count(index.value(), &here)?;
-            if other != count {
+            if other != count as u64 {
                 let name = semantic.to_string();
                 let why = format!("has {other} elements, but POSITION has {count}");
                 return Err(self.accessors.doc.error(format!("{}/{name}", here()), why));
             }
         }
         // Indices are 32 bits wide, and the largest value is not a vertex (glTF 2.0, 3.7.2.1).
-        if count >= u64::from(u32::MAX) {
+        if count >= u32::MAX as usize {
             return Err(self.accessors.doc.error(here(), format!("{count} vertices are too many")));
         }
-        Ok(count as usize)
+        Ok(count)
     }
 
     /// The vertex of every corner, in the order of the file, each checked.
@@ -146,7 +148,7 @@ fn triangle_list(mode: Mode, corners: Vec<u32>, place: &str, warnings: &mut Warn
         Mode::TriangleFan => (0..triangles).flat_map(|i| [at(i + 1), at(i + 2), at(0)]).collect(),
         _ => {
             let mut corners = corners;
-            if corners.len() % 3 != 0 {
+            if !corners.len().is_multiple_of(3) {
                 warnings.add(place, "corners that do not fill a triangle are ignored");
                 corners.truncate(corners.len() / 3 * 3);
             }

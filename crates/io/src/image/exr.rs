@@ -5,8 +5,8 @@
 //! tev and Blender show the dotted names as layers. A file of several parts hides all but the first from many of them.
 
 use super::LinearImage;
-use super::exr_header;
-use crate::{IoError, Limits, files};
+use super::{exr_dwa, exr_header};
+use crate::{IoError, Limits, files, guard};
 use ::exr::block;
 use ::exr::image::read::read;
 use ::exr::image::write::WritableImage;
@@ -110,8 +110,8 @@ fn assemble(image: ExrImage) -> Result<Image<Layer<AnyChannels<FlatSamples>>>, S
     if let Some(two) = channels.list.windows(2).find(|two| two[0].name == two[1].name) {
         return Err(format!("there are two channels {}", two[0].name));
     }
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = Some(Text::from("Lumbre"));
+    let software_name = Some(Text::from("Lumbre"));
+    let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
     for (name, value) in image.metadata {
         let key = text(&name, 255).ok_or_else(|| format!("{name:?} cannot name an attribute"))?;
         // What Latin-1 lacks cannot be stored.
@@ -158,16 +158,15 @@ pub(super) fn decode(path: &Path, bytes: &[u8], limits: &Limits) -> Result<ExrIm
         ::exr::error::Error::NotSupported(what) => IoError::unsupported(path, "", what),
         other => IoError::data(path, "", format!("not a sound EXR: {other}")),
     };
-    let chunks = block::read(Cursor::new(bytes), false).map_err(failed)?;
-    check_headers(path, chunks.headers(), bytes.len(), limits)?;
-    let image: FlatImage = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .all_layers()
-        .all_attributes()
-        .from_chunks(chunks)
-        .map_err(failed)?;
+    let image = guard::decode(path, || {
+        let chunks = block::read(Cursor::new(bytes), false).map_err(failed)?;
+        check_headers(path, chunks.headers(), bytes.len(), limits)?;
+        exr_dwa::check(bytes, chunks.headers()).map_err(failed)?;
+        let reader = read().no_deep_data().largest_resolution_level().all_channels().all_layers();
+        // On this thread: a panic in one of the crate's own would end the process.
+        let image: FlatImage = reader.all_attributes().non_parallel().from_chunks(chunks).map_err(failed)?;
+        Ok(image)
+    })?;
     Ok(disassemble(image))
 }
 
@@ -240,7 +239,7 @@ fn disassemble(image: FlatImage) -> ExrImage {
 pub(super) fn linear(path: &Path, image: ExrImage, layer: Option<&str>) -> Result<LinearImage, IoError> {
     let names = || image.layers.iter().map(|l| format!("{:?}", l.name)).collect::<Vec<_>>().join(", ");
     let found = match layer {
-        Some(name) => image.layers.iter().find(|l| l.name == name).and_then(|l| colors(l)),
+        Some(name) => image.layers.iter().find(|l| l.name == name).and_then(colors),
         None => image.layers.iter().find_map(colors),
     };
     let Some(pixels) = found else {

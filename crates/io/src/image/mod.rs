@@ -1,6 +1,7 @@
 //! Pictures in and out, all linear Rec. 709 once in memory.
 
 pub(crate) mod exr;
+mod exr_dwa;
 mod exr_header;
 mod hdr;
 pub(crate) mod ldr;

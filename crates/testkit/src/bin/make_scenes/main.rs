@@ -1,6 +1,7 @@
 //! Writes the project's own scenes, `assets/scenes/*`: every file there is made by this program, byte for byte, on any machine
 //! (`f64` arithmetic, transcendental functions of `libm`). `make_scenes` writes them, `make_scenes --check` only compares and
 //! fails when one is stale; a test does the same. Takes an optional folder, by default `assets/scenes` of the workspace.
+#![forbid(unsafe_code)]
 
 mod cornell;
 mod glb;

@@ -1,0 +1,269 @@
+//! Damaged files: whatever bits are turned, swapped or cut, a reader returns; it neither panics nor hangs. The mutations
+//! are the same in every run.
+
+mod common;
+
+use common::Gltf;
+use lumbre_core::Rgb;
+use lumbre_io::{
+    ExrImage, ExrLayer, IoError, Limits, LoadOptions, load_scene, read_environment, read_exr,
+    read_linear_image, write_exr, write_png,
+};
+use serde_json::json;
+use std::path::Path;
+
+/// Mutations of each file; set `LUMBRE_MUTATIONS` for more.
+fn rounds() -> u64 {
+    std::env::var("LUMBRE_MUTATIONS").ok().and_then(|v| v.parse().ok()).unwrap_or(300)
+}
+
+/// A small generator of numbers (SplitMix64, Steele et al. 2014).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+}
+
+/// One to four changes of a kind that breaks parsers.
+fn mutate(original: &[u8], random: &mut Random) -> Vec<u8> {
+    let mut bytes = original.to_vec();
+    for _ in 0..=random.below(4) {
+        if bytes.is_empty() {
+            break;
+        }
+        let at = random.below(bytes.len());
+        match random.below(7) {
+            0 => bytes[at] ^= 1 << random.below(8),
+            1 => bytes[at] = [0, 1, 0x7f, 0x80, 0xff][random.below(5)],
+            2 => bytes.truncate(at),
+            // A whole number at an end of its range.
+            3 => {
+                let value = [0, 1, 0x7fff_ffff, 0x8000_0000, 0xffff_ffff, 0x0001_0000][random.below(6)];
+                let value =
+                    if random.below(2) == 0 { u32::to_le_bytes(value) } else { u32::to_be_bytes(value) };
+                for (b, v) in bytes[at..].iter_mut().zip(value) {
+                    *b = v;
+                }
+            }
+            4 => {
+                let (from, len) = (random.below(bytes.len()), random.below(64));
+                let part = bytes[from..bytes.len().min(from + len)].to_vec();
+                for (b, v) in bytes[at..].iter_mut().zip(part) {
+                    *b = v;
+                }
+            }
+            5 => drop(bytes.drain(at..original.len().min(at + random.below(16)).min(bytes.len()).max(at))),
+            // A digit of the JSON.
+            _ => {
+                if let Some(digit) = bytes[at..].iter_mut().find(|b| b.is_ascii_digit()) {
+                    *digit = b'0' + random.below(10) as u8;
+                }
+            }
+        }
+    }
+    bytes
+}
+
+/// Reads every mutation of `original`; at least one must be refused, or the mutations would prove nothing.
+fn survive<T>(name: &str, original: &[u8], read: impl Fn(&Path) -> Result<T, IoError>) {
+    survive_with(mutate, name, original, read);
+}
+
+/// Other digits and signs in a text, one to four: the form stays sound, so that what lies behind the parser is reached.
+fn change_numbers(original: &[u8], random: &mut Random) -> Vec<u8> {
+    let mut bytes = original.to_vec();
+    let places: Vec<usize> = (0..bytes.len()).filter(|&i| bytes[i].is_ascii_digit()).collect();
+    for _ in 0..=random.below(4) {
+        let at = places[random.below(places.len())];
+        bytes[at] = b"0123456789-e"[random.below(12)];
+    }
+    bytes
+}
+
+fn survive_with<T>(
+    mutate: fn(&[u8], &mut Random) -> Vec<u8>,
+    name: &str,
+    original: &[u8],
+    read: impl Fn(&Path) -> Result<T, IoError>,
+) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, original).unwrap();
+    assert!(read(&path).is_ok(), "the sound {name} does not open");
+    let mut random = Random(original.len() as u64);
+    let (mut refused, n) = (0, rounds());
+    for i in 0..n {
+        let bytes = mutate(original, &mut random);
+        std::fs::write(&path, &bytes).unwrap();
+        let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| read(&path)));
+        match result {
+            Ok(Ok(_)) => {}
+            Ok(Err(e)) => {
+                refused += 1;
+                let message = e.to_string();
+                let stem = name.split('.').next().unwrap();
+                assert!(message.contains(stem) && !message.contains('\n'), "{message}");
+            }
+            Err(_) => panic!("mutation {i} of {name} panics"),
+        }
+    }
+    println!("{name}: {refused} of {n} refused");
+    assert!(refused > 0);
+}
+
+/// Enough for the files here, so that a wrong size cannot make the test slow.
+fn limits() -> Limits {
+    Limits {
+        max_image_bytes: 16 << 20,
+        max_total_image_bytes: 32 << 20,
+        max_triangles: 1 << 20,
+        max_vertices: 1 << 20,
+        ..Limits::default()
+    }
+}
+
+fn rich_scene() -> Gltf {
+    let mut g = Gltf::triangle();
+    let uv = g.f32s("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+    let normal = g.f32s("VEC3", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+    let at = g.u16s(&[1]);
+    let with = g.f32s("VEC3", &[7.0, 8.0, 9.0]);
+    let view = |a: usize| g.doc["accessors"][a]["bufferView"].clone();
+    g.doc["accessors"][0]["sparse"] = json!({
+        "count": 1,
+        "indices": {"bufferView": view(at), "componentType": 5123},
+        "values": {"bufferView": view(with)}
+    });
+    let texels: Vec<u8> = (0..256).map(|i| i as u8).collect();
+    g.image("image/png", &common::png(8, 8, &texels));
+    g.primitive()["attributes"] = json!({"POSITION": 0, "TEXCOORD_0": uv, "NORMAL": normal});
+    g.doc["nodes"] = json!([{"children": [1, 2]}, {"mesh": 0, "scale": [1, 2, 3]}, {"camera": 0}]);
+    g.doc["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]);
+    g.material(json!({
+        "pbrMetallicRoughness": {"baseColorTexture": {
+            "index": 0, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}
+        }},
+        "extensions": {"KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [1, 0.5, 0.25]}}
+    }))
+}
+
+/// A smooth picture with some noise, so that every coding has something to do.
+fn picture(n: u32) -> Vec<Rgb> {
+    let mut random = Random(1);
+    (0..n * n).map(|i| Rgb::splat((i % n) as f32) + Rgb::splat((random.next() % 100) as f32 * 0.01)).collect()
+}
+
+#[test]
+fn gltf_and_glb() {
+    let options = LoadOptions { limits: limits() };
+    // A scene that loads must also compile, or say why not.
+    let read = |path: &Path| load_scene(path, &options).map(|l| lumbre_scene::compile(&l.scene).map(|_| ()));
+    survive("scene.gltf", rich_scene().text().as_bytes(), read);
+    survive("scene.glb", &rich_scene().glb(), read);
+    // Without data URIs every digit of the text means something.
+    let mut g = rich_scene();
+    g.doc["buffers"] = json!([{"byteLength": g.bytes.len()}]);
+    g.doc["images"] = json!([]);
+    g.doc["textures"] = json!([]);
+    g.doc["materials"] = json!([{}]);
+    let text = g.doc.to_string();
+    let glb = |text: &[u8]| Gltf::wrap(text, &g.bytes);
+    let read = |path: &Path| {
+        let text = std::fs::read(path).unwrap();
+        let path = path.with_extension("glb");
+        std::fs::write(&path, glb(&text)).unwrap();
+        read(&path)
+    };
+    survive_with(change_numbers, "scene.json", text.as_bytes(), read);
+}
+
+#[test]
+fn png_and_jpeg() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    let rgb: Vec<u8> = picture(24).iter().flat_map(|p| p.to_array().map(|c| c as u8 * 9)).collect();
+    write_png(&path, 24, 24, &rgb).unwrap();
+    let read = |path: &Path| read_linear_image(path, None, &limits());
+    survive("a.png", &std::fs::read(&path).unwrap(), read);
+    let mut jpeg = std::io::Cursor::new(Vec::new());
+    let color = image::ExtendedColorType::Rgb8;
+    image::write_buffer_with_format(&mut jpeg, &rgb, 24, 24, color, image::ImageFormat::Jpeg).unwrap();
+    survive("a.jpg", &jpeg.into_inner(), read);
+}
+
+#[test]
+fn hdr() {
+    // Runs and lists, then plain pixels with old runs.
+    let mut bytes = b"#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 24 +X 24\n".to_vec();
+    let mut random = Random(2);
+    for y in 0..24 {
+        if y % 2 == 0 {
+            bytes.extend([2, 2, 0, 24]);
+            for _ in 0..4 {
+                bytes.extend([128 + 14, random.next() as u8, 10]);
+                bytes.extend((0..10).map(|_| random.next() as u8));
+            }
+        } else {
+            bytes.extend([9, 8, 7, 130, 1, 1, 1, 20]);
+            bytes.extend((0..3).flat_map(|_| [5, 4, 3, random.next() as u8]));
+        }
+    }
+    survive("a.hdr", &bytes, |path| read_environment(path, &limits()));
+}
+
+#[test]
+fn exr() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    let layers = vec![ExrLayer::rgb("", picture(24).into_iter(), false)];
+    let image = ExrImage { width: 24, height: 24, layers, metadata: vec![("seed".into(), "7".into())] };
+    write_exr(&path, image).unwrap();
+    survive("a.exr", &std::fs::read(&path).unwrap(), |path| read_exr(path, &limits()));
+}
+
+/// The codings that this program does not write but reads.
+#[test]
+fn exr_of_other_codings() {
+    use exr::prelude::*;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("b.exr");
+    let pixels = picture(24);
+    for (i, compression) in [
+        Compression::Uncompressed,
+        Compression::RLE,
+        Compression::ZIP1,
+        Compression::PIZ,
+        Compression::PXR24,
+        Compression::B44,
+        Compression::DWAA(None),
+        Compression::DWAB(None),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let channel = |name: &str, at: usize| {
+            AnyChannel::new(name, FlatSamples::F16(pixels.iter().map(|p| f16::from_f32(p[at])).collect()))
+        };
+        let list = [("R", 0), ("G", 1), ("B", 2)].map(|(n, at)| channel(n, at));
+        let tiled = i % 2 == 0;
+        let blocks = if tiled { Blocks::Tiles(Vec2(16, 16)) } else { Blocks::ScanLines };
+        let encoding = Encoding { compression, blocks, line_order: LineOrder::Increasing };
+        let layer = Layer::new(
+            (24, 24),
+            LayerAttributes::default(),
+            encoding,
+            AnyChannels::sort(list.into_iter().collect()),
+        );
+        Image::from_layer(layer).write().to_file(&path).unwrap();
+        println!("{compression}");
+        survive("b.exr", &std::fs::read(&path).unwrap(), |path| read_exr(path, &limits()));
+    }
+}

@@ -1,0 +1,165 @@
+//! The table of surfaces that every BSDF test walks: one row per model and choice of parameters.
+
+use lumbre_core::Spectrum;
+use lumbre_core::bsdf::{Bsdf, BsdfParams, DiffuseSampling};
+
+/// One surface under test.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// What failures call it.
+    pub name: &'static str,
+    /// Its parameters.
+    pub params: BsdfParams,
+}
+
+impl Row {
+    /// The surface.
+    pub fn bsdf(&self) -> Bsdf {
+        Bsdf::new(&self.params)
+    }
+    /// The surface seen from its other side: solids have the inverse index there.
+    pub fn from_behind(&self) -> Bsdf {
+        Bsdf::new(&BsdfParams { eta: 1.0 / self.params.eta, ..self.params })
+    }
+    /// Width of the microfacets.
+    pub fn alpha(&self) -> f32 {
+        self.params.roughness * self.params.roughness
+    }
+    /// True for the boundary of a solid that transmits.
+    pub fn refracts(&self) -> bool {
+        self.params.transmission > 0.0 && self.params.metallic < 1.0 && !self.params.thin
+    }
+}
+
+/// A coloured base.
+const OCHRE: Spectrum = Spectrum::new(0.8, 0.45, 0.1);
+
+fn row(name: &'static str, change: impl Fn(&mut BsdfParams)) -> Row {
+    let mut params = BsdfParams { base_color: OCHRE, ..BsdfParams::default() };
+    change(&mut params);
+    Row { name, params }
+}
+
+/// Metals, mirrors included.
+pub fn metals() -> Vec<Row> {
+    let metal = |name, roughness: f32| {
+        row(name, move |p| {
+            p.metallic = 1.0;
+            p.roughness = roughness;
+        })
+    };
+    vec![
+        metal("metal mirror", 0.0),
+        // α is the smallest that counts as rough.
+        metal("metal smallest alpha", 0.0317),
+        metal("metal 0.1", 0.1),
+        metal("metal 0.3", 0.3),
+        metal("metal 0.6", 0.6),
+        metal("metal 1.0", 1.0),
+    ]
+}
+
+/// Opaque dielectrics.
+pub fn bases() -> Vec<Row> {
+    let base = |name, roughness: f32| row(name, move |p| p.roughness = roughness);
+    vec![
+        row("lambert", |p| p.specular = 0.0),
+        row("lambert uniform", |p| {
+            p.specular = 0.0;
+            p.diffuse_sampling = DiffuseSampling::Uniform;
+        }),
+        base("plastic mirror", 0.0),
+        base("plastic 0.1", 0.1),
+        base("plastic 0.4", 0.4),
+        base("plastic 1.0", 1.0),
+        row("plastic uniform", |p| {
+            p.roughness = 0.5;
+            p.diffuse_sampling = DiffuseSampling::Uniform;
+        }),
+        row("tinted specular", |p| {
+            p.roughness = 0.5;
+            p.ior = 2.4;
+            p.specular_color = Spectrum::new(0.2, 1.0, 9.0);
+        }),
+        row("weak specular", |p| {
+            p.roughness = 0.7;
+            p.specular = 0.3;
+        }),
+        row("black plastic", |p| {
+            p.roughness = 0.35;
+            p.base_color = Spectrum::BLACK;
+        }),
+        row("total specular", |p| {
+            p.roughness = 0.6;
+            p.ior = 0.0;
+        }),
+    ]
+}
+
+/// Boundaries of solids, from both sides, and thin walls.
+pub fn transmissive() -> Vec<Row> {
+    let solid = |name, roughness: f32, eta: f32| {
+        row(name, move |p| {
+            p.transmission = 1.0;
+            p.thin = false;
+            p.roughness = roughness;
+            p.eta = eta;
+        })
+    };
+    let thin = |name, roughness: f32| {
+        row(name, move |p| {
+            p.transmission = 1.0;
+            p.roughness = roughness;
+        })
+    };
+    vec![
+        solid("glass", 0.0, 1.5),
+        solid("glass from inside", 0.0, 1.0 / 1.5),
+        solid("index matched", 0.0, 1.0),
+        solid("index matched rough", 0.7, 1.0),
+        solid("rough glass 0.1", 0.1, 1.5),
+        solid("rough glass 0.4", 0.4, 1.5),
+        solid("rough glass 1.0", 1.0, 1.5),
+        solid("rough glass 0.4 from inside", 0.4, 1.0 / 1.5),
+        solid("rough glass 1.0 from inside", 1.0, 1.0 / 1.5),
+        solid("rough diamond 0.5", 0.5, 2.417),
+        solid("rough water to glass 0.5", 0.5, 1.5 / 1.33),
+        solid("rough, nearly matched", 0.8, 1.02),
+        thin("thin", 0.0),
+        thin("thin 0.1", 0.1),
+        thin("thin 0.5", 0.5),
+        thin("thin 1.0", 1.0),
+    ]
+}
+
+/// Mixtures of the models above.
+pub fn mixtures() -> Vec<Row> {
+    let mixed = |name, metallic: f32, transmission: f32, thin: bool, roughness: f32| {
+        row(name, move |p| {
+            p.metallic = metallic;
+            p.transmission = transmission;
+            p.thin = thin;
+            p.roughness = roughness;
+        })
+    };
+    vec![
+        mixed("half metal", 0.5, 0.0, true, 0.4),
+        mixed("half metal mirror", 0.5, 0.0, true, 0.0),
+        mixed("half glass", 0.0, 0.5, false, 0.3),
+        mixed("half glass smooth", 0.0, 0.5, false, 0.0),
+        mixed("half thin smooth", 0.0, 0.5, true, 0.0),
+        mixed("all three", 0.3, 0.6, false, 0.5),
+        mixed("all three thin", 0.3, 0.6, true, 0.5),
+        mixed("all three smooth", 0.3, 0.6, false, 0.0),
+        row("metal on lambert", |p| {
+            p.metallic = 0.2;
+            p.specular = 0.0;
+            p.roughness = 0.5;
+        }),
+    ]
+}
+
+/// Every row.
+pub fn all() -> Vec<Row> {
+    [metals(), bases(), transmissive(), mixtures()].concat()
+}
