@@ -102,7 +102,7 @@ pub(crate) struct SamplingArgs {
     #[arg(long, default_value = "auto")]
     pub(crate) transmissive_shadows: Shadows,
 
-    /// Which camera rays see the back of single-sided opaque surfaces.
+    /// Whether camera rays see the back of single-sided opaque surfaces.
     #[arg(long, default_value = "cull")]
     pub(crate) back_faces: BackFaces,
 

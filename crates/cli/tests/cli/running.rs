@@ -94,3 +94,23 @@ fn memory_is_predicted_before_anything_is_opened() {
     lumbre(&format!("render {SMOOTH} -o a.png --memory-limit 1M")).exits(71).says("720x720");
     lumbre("render none.glb -o a.png --memory-limit lots").exits(2).says("800M");
 }
+
+/// Through `script`, which gives the program a terminal and is part of every Debian.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_gets_a_bar_that_goes_away() {
+    let dir = folder();
+    let program = env!("CARGO_BIN_EXE_lumbre");
+    let words = format!("render {CORNELL} --size 32x24 --spp 16 -o {}/a.png", dir.path().display());
+    let mut c = std::process::Command::new("script");
+    c.args(["-qec", &format!("'{program}' {words}"), "/dev/null"]).env("TERM", "xterm");
+    let Ok(output) = c.output() else {
+        println!("skipped: no `script` on this machine");
+        return;
+    };
+    let run = Run::from(output).exits(0);
+    let last = run.stdout.rfind("Mrays/s, ").expect("figures beside the bar");
+    assert!(run.stdout[..last].contains(" %  ") && run.stdout[last..].contains(" left"), "{}", run.stdout);
+    let (bar, summary) = run.stdout[last..].split_once("render: ").expect("a summary after it");
+    assert!(bar.contains("\u{1b}[2K") && !summary.contains('\u{1b}'), "the bar is wiped: {:?}", run.stdout);
+}
