@@ -2,8 +2,7 @@
 
 use crate::console;
 use crate::exit::{Code, Failure};
-use crate::flags::compare::CompareArgs;
-use crate::flags::values::{Metric, Threshold};
+use crate::flags::compare::{CompareArgs, Metric, Threshold};
 use lumbre::compare::{
     FlipMap, ImageView, NonFinite, PIXELS_PER_DEGREE, flip_hdr, flip_ldr, psnr, rel_mse, rmse,
 };

@@ -53,7 +53,9 @@ fn guarded(command: impl FnOnce() -> Result<Code, Failure>) -> Code {
 
 /// One line where a panic arose, on whichever thread.
 fn report_bug(info: &PanicHookInfo<'_>) {
-    let what = info.payload_as_str().unwrap_or("no message");
+    let payload = info.payload();
+    let text = payload.downcast_ref::<&str>().copied();
+    let what = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");
     let place = info.location().map_or_else(String::new, |l| format!(" ({}:{})", l.file(), l.line()));
     console::error(format_args!(
         "this is a bug of lumbre {}: {what}{place}; please report it with the command line and, if possible, the scene",

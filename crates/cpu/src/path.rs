@@ -5,7 +5,7 @@
 use crate::interaction::Interaction;
 use crate::light_sampling::{LightSample, pdf_environment, pdf_sun, pdf_triangle, sample_light, sun};
 use crate::observer::{PathEvent, PathObserver};
-use crate::shadow::ShadowRay;
+use crate::shadow::{Arriving, ShadowRay};
 use crate::surface::{Surface, emission};
 use crate::tracer::{CoverageKey, Tracer};
 use glam::Vec3;
@@ -218,8 +218,11 @@ impl<O: PathObserver> Path<'_, '_, O> {
         if f.is_black() {
             return;
         }
-        let transmittance = self.light_transmittance(it, surface, &light, reflects);
-        let mis_weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
+        let Arriving { share: transmittance, through_solid } =
+            self.light_transmittance(it, surface, &light, reflects);
+        // Scattered rays do not find this light, or leave it out.
+        let alone = light.is_delta || through_solid;
+        let mis_weight = if alone { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
         let contribution = self.beta * f * light.radiance * transmittance * (mis_weight / light.pdf);
         self.radiance += contribution;
         self.observer.event(PathEvent::Light {
@@ -239,7 +242,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
         surface: &Surface,
         light: &LightSample,
         reflects: bool,
-    ) -> Spectrum {
+    ) -> Arriving {
         let mut media = self.media;
         if let Some(beyond) = surface.beyond.filter(|_| !reflects) {
             media.cross(beyond, it.material, it.front);

@@ -62,12 +62,26 @@ impl ShadowRay {
     }
 }
 
+/// What arrives along a shadow ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arriving {
+    /// Share of the light; black when something stands in between.
+    pub share: Spectrum,
+    /// It came straight through the surface of a solid. Paths that refract through it leave this light out, so light
+    /// sampling has it to itself.
+    pub through_solid: bool,
+}
+
+impl Arriving {
+    const NOTHING: Arriving = Arriving { share: Spectrum::BLACK, through_solid: false };
+}
+
 /// Most transmissive surfaces that one shadow ray passes.
 const MOST_SURFACES: u32 = 64;
 
 impl Tracer<'_> {
-    /// Share of the light that arrives; black when something stands in between.
-    pub fn transmittance(&self, shadow: &ShadowRay, key: CoverageKey) -> Spectrum {
+    /// How much of the light arrives.
+    pub fn transmittance(&self, shadow: &ShadowRay, key: CoverageKey) -> Arriving {
         let ray = shadow.ray();
         let solids_pass = match self.settings.transmissive_shadows {
             TransmissiveShadows::Auto => shadow.to_delta_light,
@@ -86,23 +100,25 @@ impl Tracer<'_> {
             !passes
         });
         if blocked {
-            Spectrum::BLACK
+            Arriving::NOTHING
         } else if meets_transmissive {
             self.pass_through(ray, shadow, key)
         } else {
-            shadow.media.current().transmittance(ray.t_max)
+            Arriving { share: shadow.media.current().transmittance(ray.t_max), through_solid: false }
         }
     }
 
     /// Follows the ray from one transmissive surface to the next.
-    fn pass_through(&self, ray: Ray, shadow: &ShadowRay, key: CoverageKey) -> Spectrum {
+    fn pass_through(&self, ray: Ray, shadow: &ShadowRay, key: CoverageKey) -> Arriving {
         let mut media = shadow.media;
         let mut walls = shadow.wall_budget;
         let mut factor = Spectrum::WHITE;
+        let mut through_solid = false;
         let mut ray = ray;
         for _ in 0..MOST_SURFACES {
             let Some(hit) = self.accel.closest_hit(&ray, |hit| self.covered(hit, key)) else {
-                return factor * media.current().transmittance(ray.t_max - ray.t_min);
+                let share = factor * media.current().transmittance(ray.t_max - ray.t_min);
+                return Arriving { share, through_solid };
             };
             let it = Interaction::new(self.scene, &ray, &hit);
             let surface = Surface::new(self.scene, &it, -ray.dir, &media, DiffuseSampling::Cosine);
@@ -110,20 +126,21 @@ impl Tracer<'_> {
             let cos = surface.frame.n.dot(ray.dir).abs();
             match surface.beyond {
                 Some(beyond) => {
+                    through_solid = true;
                     factor *= surface.bsdf.straight_transmittance(cos);
                     media.cross(beyond, it.material, it.front);
                 }
-                None if walls == 0 => return Spectrum::BLACK,
+                None if walls == 0 => return Arriving::NOTHING,
                 None => {
                     factor *= surface.bsdf.thin_transmittance(cos);
                     walls -= 1;
                 }
             }
             if factor.is_black() {
-                return Spectrum::BLACK;
+                return Arriving::NOTHING;
             }
             ray.t_min = hit.t;
         }
-        Spectrum::BLACK
+        Arriving::NOTHING
     }
 }

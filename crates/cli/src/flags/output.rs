@@ -15,7 +15,7 @@ pub(crate) struct OutputArgs {
 
     /// Columns and rows of the picture, up to 32768 each. [default: 720 rows in the shape that the camera was framed for,
     /// 1280x720 where the scene does not say]
-    #[arg(long, value_name = "WxH", value_parser = size)]
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
     /// Brightness of a PNG: `auto` makes the log-average luminance middle grey (0.18), `thesis` is 0.5 over the average clamped

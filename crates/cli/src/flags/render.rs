@@ -25,8 +25,10 @@ Examples:
   lumbre render scene.glb --pixel 310,204 --sample 7
       one path, vertex by vertex, instead of a picture
 
-Exit codes: 0 done, 2 wrong usage, 65 bad data in a file, 66 a file cannot be opened, 70 a bug, 71 too little memory,
-74 cannot write, 75 interrupted with the picture so far written, 130 interrupted with nothing written.";
+Exit codes:
+  0 done, 2 wrong usage, 65 bad data in a file, 66 a file cannot be opened, 70 a bug,
+  71 too little memory, 74 cannot write, 75 interrupted with the picture so far written,
+  130 interrupted with nothing written";
 
 /// Flags of `lumbre render`.
 #[derive(Args, Debug)]

@@ -9,10 +9,10 @@ use clap::Args;
 pub(crate) struct ReplayArgs {
     /// Instead of a picture, trace one camera sample of this pixel (column, row, from the top left) and print each step on
     /// stdout. All other flags must be those of the picture.
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pub(crate) pixel: Option<[u32; 2]>,
 
     /// Which sample of that pixel, from 0.
-    #[arg(long, value_name = "N", requires = "pixel", default_value_t = 0)]
+    #[arg(long, value_name = "N", requires = "pixel", default_value_t = 0, allow_negative_numbers = true)]
     pub(crate) sample: u32,
 }

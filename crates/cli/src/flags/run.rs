@@ -45,12 +45,13 @@ pub(crate) struct RunArgs {
     pub(crate) device: DeviceFlag,
 
     /// Threads. [default: one for each processor]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
 
     /// Refuse a picture that takes more memory than this: bytes, or with K, M, G or T, powers of 1024. [default: what the
     /// system has]
-    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    #[arg(long, value_name = "SIZE", value_parser = bytes, allow_negative_numbers = true)]
     pub(crate) memory_limit: Option<u64>,
 
     /// How to show progress.

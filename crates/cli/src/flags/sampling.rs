@@ -70,15 +70,16 @@ pub(crate) enum BackFaces {
 #[command(next_help_heading = "Sampling")]
 pub(crate) struct SamplingArgs {
     /// Samples per pixel.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=MAX_SPP))]
+    #[arg(long, value_name = "N", default_value_t = 64, allow_negative_numbers = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=MAX_SPP))]
     pub(crate) spp: u32,
 
     /// Most scattering events on a path.
-    #[arg(long, value_name = "N|unlimited", default_value = "16", value_parser = depth)]
+    #[arg(long, value_name = "N|unlimited", allow_negative_numbers = true, default_value = "16", value_parser = depth)]
     pub(crate) max_depth: Depth,
 
     /// First scattering event after which Russian roulette may end a path.
-    #[arg(long, value_name = "N|off", default_value = "4", value_parser = roulette)]
+    #[arg(long, value_name = "N|off", allow_negative_numbers = true, default_value = "4", value_parser = roulette)]
     pub(crate) roulette: Roulette,
 
     /// Random stream.
@@ -86,7 +87,7 @@ pub(crate) struct SamplingArgs {
     pub(crate) sampler: Sampler,
 
     /// Seed of the random stream: another one gives other noise.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub(crate) seed: u32,
 
     /// Pixel filter.
@@ -101,7 +102,7 @@ pub(crate) struct SamplingArgs {
     #[arg(long, default_value = "auto")]
     pub(crate) transmissive_shadows: Shadows,
 
-    /// Which camera rays see the back of single-sided opaque surfaces.
+    /// Whether camera rays see the back of single-sided opaque surfaces.
     #[arg(long, default_value = "cull")]
     pub(crate) back_faces: BackFaces,
 

@@ -198,53 +198,6 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
     count.ok_or_else(|| format!("{text:?} is not a size such as 800M or 16G"))
 }
 
-/// A figure of `lumbre compare` that can be bounded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Metric {
-    Rmse,
-    RelMse,
-    LdrFlip,
-    HdrFlip,
-    NonFinite,
-}
-
-impl Metric {
-    const ALL: [Metric; 5] =
-        [Metric::Rmse, Metric::RelMse, Metric::LdrFlip, Metric::HdrFlip, Metric::NonFinite];
-
-    /// Its name on the command line.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Metric::Rmse => "rmse",
-            Metric::RelMse => "relmse",
-            Metric::LdrFlip => "ldr-flip",
-            Metric::HdrFlip => "hdr-flip",
-            Metric::NonFinite => "non-finite",
-        }
-    }
-}
-
-/// `--fail-above`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Threshold {
-    pub(crate) metric: Metric,
-    pub(crate) value: f64,
-}
-
-/// `METRIC=VALUE`.
-pub(crate) fn threshold(text: &str) -> Result<Threshold, String> {
-    let (name, value) = text.split_once('=').ok_or("expected METRIC=VALUE, such as ldr-flip=0.05")?;
-    if name == "psnr" {
-        return Err("of psnr more is better; bound rmse instead".into());
-    }
-    let metric = Metric::ALL.into_iter().find(|m| m.name() == name).ok_or_else(|| {
-        format!("no metric {name:?}; there are {}", Metric::ALL.map(Metric::name).join(", "))
-    })?;
-    let value = value.parse::<f64>().ok().filter(|v| *v >= 0.0);
-    let value = value.ok_or_else(|| format!("the bound of {name} is not a number from 0"))?;
-    Ok(Threshold { metric, value })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -301,17 +254,13 @@ mod tests {
     }
 
     #[test]
-    fn exposures_sizes_and_bounds() {
+    fn exposures_and_sizes_of_memory() {
         assert_eq!(exposure("-1.5"), Ok(Exposure::Ev(-1.5)));
         assert_eq!((exposure("auto"), exposure("thesis")), (Ok(Exposure::Auto), Ok(Exposure::Thesis)));
         assert!(exposure("nan").is_err() && exposure("1000").is_err());
         assert_eq!((bytes("7"), bytes("2k"), bytes("3GiB")), (Ok(7), Ok(2048), Ok(3 << 30)));
         for wrong in ["", "x", "-1", "1.5G", "99999999999T", "5 apples"] {
             assert!(bytes(wrong).is_err(), "{wrong}");
-        }
-        assert_eq!(threshold("rmse=0.1"), Ok(Threshold { metric: Metric::Rmse, value: 0.1 }));
-        for wrong in ["rmse", "psnr=30", "foo=1", "rmse=-1", "rmse=nan", "rmse=x"] {
-            assert!(threshold(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -31,8 +31,8 @@ pub(super) fn finish(f: &Finish) -> String {
 
 fn count(n: u64) -> String {
     match n {
-        0..10_000 => n.to_string(),
-        10_000..10_000_000 => format!("{:.2} M", n as f64 * 1e-6),
+        0..100_000 => n.to_string(),
+        100_000..10_000_000 => format!("{:.2} M", n as f64 * 1e-6),
         _ => format!("{:.1} M", n as f64 * 1e-6),
     }
 }
