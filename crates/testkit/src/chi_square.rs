@@ -28,16 +28,24 @@ pub struct Grid {
     pub n_phi: usize,
     /// p: 1 gives equal areas, larger values crowd the bins at the pole.
     pub power: f64,
+    /// Halvings of a bin at least when the density is integrated: a few for densities with edges, which may cut a corner off a bin
+    /// that coarse points miss.
+    pub halvings: u32,
 }
 
 impl Grid {
     /// Equal-area bins for broad densities about +z.
     pub fn broad() -> Self {
-        Grid { axis: Vec3::Z, n_theta: 40, n_phi: 40, power: 1.0 }
+        Grid { axis: Vec3::Z, n_theta: 40, n_phi: 40, power: 1.0, halvings: 0 }
     }
     /// Bins that crowd about `axis`, the more the larger `power`.
     pub fn about(axis: Vec3, power: f64) -> Self {
-        Grid { axis: axis.normalize(), n_theta: 48, n_phi: 24, power }
+        Grid { axis: axis.normalize(), n_theta: 48, n_phi: 24, power, halvings: 0 }
+    }
+
+    /// The same for a density that ends at edges.
+    pub fn with_edges(self) -> Self {
+        Grid { halvings: 3, ..self }
     }
 
     fn bins(&self) -> usize {
@@ -71,21 +79,25 @@ impl Grid {
             let w = frame.to_world(Vec3::new((r * cp) as f32, (r * sp) as f32, z as f32));
             jacobian * f64::from(pdf(w))
         };
-        let cell = Cell { s: i as f64 * ds, v: j as f64 * dv, ds, dv };
-        cell.refine(&integrand, cell.gauss(&integrand), MAX_DEPTH)
+        Cell { s: i as f64 * ds, v: j as f64 * dv, ds, dv }.integrate(&integrand, self.halvings)
     }
 }
 
 /// A rectangle of the unit square.
 #[derive(Clone, Copy)]
-struct Cell {
-    s: f64,
-    v: f64,
-    ds: f64,
-    dv: f64,
+pub(crate) struct Cell {
+    pub(crate) s: f64,
+    pub(crate) v: f64,
+    pub(crate) ds: f64,
+    pub(crate) dv: f64,
 }
 
 impl Cell {
+    /// Integral of `f` over the cell, halved at least `halvings` times.
+    pub(crate) fn integrate(self, f: &impl Fn(f64, f64) -> f64, halvings: u32) -> f64 {
+        self.refine(f, self.gauss(f), (MAX_DEPTH, MAX_DEPTH - halvings))
+    }
+
     fn gauss(&self, f: &impl Fn(f64, f64) -> f64) -> f64 {
         let mut sum = 0.0;
         for (a, wa) in GAUSS {
@@ -96,17 +108,18 @@ impl Cell {
         sum * self.ds * self.dv
     }
 
-    /// Quarters the cell until its integral settles: edges such as horizons cut through bins.
-    fn refine(&self, f: &impl Fn(f64, f64) -> f64, coarse: f64, depth: u32) -> f64 {
+    /// Quarters the cell until its integral settles: edges such as horizons cut through bins. `depth`: halvings left, and
+    /// what may at most be left of them.
+    fn refine(&self, f: &impl Fn(f64, f64) -> f64, coarse: f64, (depth, most): (u32, u32)) -> f64 {
         let (ds, dv) = (self.ds / 2.0, self.dv / 2.0);
         let quarters = [(0.0, 0.0), (ds, 0.0), (0.0, dv), (ds, dv)]
             .map(|(a, b)| Cell { s: self.s + a, v: self.v + b, ds, dv })
             .map(|cell| (cell, cell.gauss(f)));
         let fine: f64 = quarters.iter().map(|(_, value)| value).sum();
-        if depth == 0 || (fine - coarse).abs() < TOLERANCE {
+        if depth == 0 || (depth <= most && (fine - coarse).abs() < TOLERANCE) {
             return fine;
         }
-        quarters.iter().map(|(cell, value)| cell.refine(f, *value, depth - 1)).sum()
+        quarters.iter().map(|(cell, value)| cell.refine(f, *value, (depth - 1, most))).sum()
     }
 }
 
@@ -159,14 +172,25 @@ pub fn test(
         let bin = sample(k as u32).map_or(grid.bins(), |w| grid.bin_of(&frame, w));
         counts[bin] += 1;
     }
-    let mut expected: Vec<f64> = (0..grid.bins()).map(|b| grid.integrate(&frame, b, &pdf)).collect();
+    let expected: Vec<f64> = (0..grid.bins()).map(|b| grid.integrate(&frame, b, &pdf)).collect();
+    compare(&counts, &expected, n)
+}
+
+/// Compares counts with the shares of `n` draws that are expected in each bin; `counts` has one entry more, for draws that fell
+/// in no bin.
+///
+/// # Panics
+/// If it has not.
+pub fn compare(counts: &[u64], expected: &[f64], n: usize) -> ChiSquare {
+    let bins = expected.len();
+    assert_eq!(counts.len(), bins + 1, "one count for each bin and one for what fell in none");
     let integral: f64 = expected.iter().sum();
-    expected.push((1.0 - integral).max(0.0));
-    let accepted = 1.0 - counts[grid.bins()] as f64 / n as f64;
+    let accepted = 1.0 - counts[bins] as f64 / n as f64;
+    let nowhere = (1.0 - integral).max(0.0);
 
     let (mut statistic, mut used) = (0.0, 0usize);
     let (mut pooled_count, mut pooled_expected) = (0.0, 0.0);
-    for (&count, &share) in counts.iter().zip(&expected) {
+    for (&count, &share) in counts.iter().zip(expected.iter().chain([&nowhere])) {
         let (count, share) = (count as f64, share * n as f64);
         if share < MIN_EXPECTED {
             pooled_count += count;

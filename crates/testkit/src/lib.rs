@@ -7,3 +7,4 @@ pub mod chi_square;
 pub mod furnace;
 pub mod measure;
 pub mod shapes;
+pub mod square;
