@@ -53,7 +53,9 @@ impl Exposure {
     pub fn factor(self, pixels: &[Rgb], width: usize) -> f32 {
         match self {
             Exposure::Ev(ev) => exp2(ev),
-            Exposure::Thesis => 0.5 / mean(pixels.iter().map(|p| p.luminance())).unwrap_or(1.0).clamp(0.1, 1.0),
+            Exposure::Thesis => {
+                0.5 / mean(pixels.iter().map(|p| p.luminance())).unwrap_or(1.0).clamp(0.1, 1.0)
+            }
             Exposure::Auto => {
                 let blocks = block_means(pixels, width);
                 let lit = blocks.iter().copied().filter(|y| *y > 0.0);
@@ -73,7 +75,8 @@ fn block_means(pixels: &[Rgb], width: usize) -> Vec<f32> {
     let columns = width.div_ceil(side);
     let rows: Vec<&[Rgb]> = pixels.chunks(width.max(1)).collect();
     let block = |rows: &[&[Rgb]], column: usize| {
-        let part = |row: &&[Rgb]| row[(column * side).min(row.len())..((column + 1) * side).min(row.len())].to_vec();
+        let part =
+            |row: &&[Rgb]| row[(column * side).min(row.len())..((column + 1) * side).min(row.len())].to_vec();
         mean(rows.iter().flat_map(part).map(Rgb::luminance))
     };
     rows.chunks(side).flat_map(|rows| (0..columns).filter_map(move |c| block(rows, c))).collect()
@@ -103,7 +106,8 @@ mod tests {
 
     #[test]
     fn noise_is_not_darkness() {
-        let noisy: Vec<Rgb> = (0..400 * 300).map(|i| Rgb::splat(if i % 7 == 0 { 7.0 } else { 0.0 })).collect();
+        let noisy: Vec<Rgb> =
+            (0..400 * 300).map(|i| Rgb::splat(if i % 7 == 0 { 7.0 } else { 0.0 })).collect();
         assert!((Exposure::Auto.factor(&noisy, 400) / 0.18 - 1.0).abs() < 0.05);
     }
 
