@@ -48,23 +48,38 @@ impl Exposure {
     /// Bounds of the automatic factor: a picture in which nothing is lit stays dark.
     pub const AUTO_RANGE: (f32, f32) = (1e-6, 1e6);
 
-    /// The factor for a picture. Pixels that are black or not finite do not count in the averages of `Auto`.
-    pub fn factor(self, pixels: &[Rgb]) -> f32 {
+    /// The factor for a picture of this width, row by row. Pixels that are not finite do not count, nor do black areas in the
+    /// average of `Auto`, which looks at the picture from afar: means of blocks, so that noise does not pass for darkness.
+    pub fn factor(self, pixels: &[Rgb], width: usize) -> f32 {
         match self {
             Exposure::Ev(ev) => exp2(ev),
             Exposure::Thesis => {
                 0.5 / mean(pixels.iter().map(|p| p.luminance())).unwrap_or(1.0).clamp(0.1, 1.0)
             }
             Exposure::Auto => {
-                let lit = pixels.iter().map(|p| p.luminance()).filter(|y| y.is_finite() && *y > 0.0);
-                // A tenth of a thousandth of the mean floors the logarithm, so that near-black pixels do not rule.
+                let blocks = block_means(pixels, width);
+                let lit = blocks.iter().copied().filter(|y| *y > 0.0);
                 let Some(average) = mean(lit.clone()) else { return 1.0 };
-                let floor = 1e-4 * average;
+                // A thousandth of the mean floors the logarithm, so that near-black areas do not rule.
+                let floor = 1e-3 * average;
                 let log_average = mean(lit.map(|y| ln(y.max(floor)))).map_or(average, exp);
                 (0.18 / log_average).clamp(Self::AUTO_RANGE.0, Self::AUTO_RANGE.1)
             }
         }
     }
+}
+
+/// Mean luminance of each block of the picture, about 40 blocks across; blocks without a finite pixel are left out.
+fn block_means(pixels: &[Rgb], width: usize) -> Vec<f32> {
+    let side = (width / 40).max(1);
+    let columns = width.div_ceil(side);
+    let rows: Vec<&[Rgb]> = pixels.chunks(width.max(1)).collect();
+    let block = |rows: &[&[Rgb]], column: usize| {
+        let part =
+            |row: &&[Rgb]| row[(column * side).min(row.len())..((column + 1) * side).min(row.len())].to_vec();
+        mean(rows.iter().flat_map(part).map(Rgb::luminance))
+    };
+    rows.chunks(side).flat_map(|rows| (0..columns).filter_map(move |c| block(rows, c))).collect()
 }
 
 /// Mean of the finite values, in double precision; `None` if there are none.
@@ -90,13 +105,20 @@ mod tests {
     }
 
     #[test]
+    fn noise_is_not_darkness() {
+        let noisy: Vec<Rgb> =
+            (0..400 * 300).map(|i| Rgb::splat(if i % 7 == 0 { 7.0 } else { 0.0 })).collect();
+        assert!((Exposure::Auto.factor(&noisy, 400) / 0.18 - 1.0).abs() < 0.05);
+    }
+
+    #[test]
     fn exposure_puts_the_log_average_at_middle_grey() {
         let picture = [Rgb::splat(1.0), Rgb::splat(4.0), Rgb::BLACK, Rgb::splat(f32::NAN)];
-        assert!((Exposure::Auto.factor(&picture) - 0.18 / 2.0).abs() < 1e-6);
-        assert_eq!(Exposure::Auto.factor(&[Rgb::BLACK]), 1.0);
-        assert_eq!(Exposure::Ev(3.0).factor(&picture), 8.0);
-        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(0.25)]), 2.0);
-        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(9.0)]), 0.5);
-        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(0.001)]), 5.0);
+        assert!((Exposure::Auto.factor(&picture, 4) - 0.18 / 2.0).abs() < 1e-6);
+        assert_eq!(Exposure::Auto.factor(&[Rgb::BLACK], 1), 1.0);
+        assert_eq!(Exposure::Ev(3.0).factor(&picture, 4), 8.0);
+        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(0.25)], 1), 2.0);
+        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(9.0)], 1), 0.5);
+        assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(0.001)], 1), 5.0);
     }
 }

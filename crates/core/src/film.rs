@@ -67,8 +67,10 @@ pub struct Film {
 }
 
 fn quantise(x: f32) -> i64 {
-    // `as` saturates; NaN cannot come here.
-    (f64::from(x) * SCALE).round_ties_even() as i64
+    // Rounds half away from zero, without a call where the processor has no instruction for it. `as` saturates; NaN cannot
+    // come here.
+    let x = f64::from(x) * SCALE;
+    (x + 0.5f64.copysign(x)) as i64
 }
 
 impl PixelSums {

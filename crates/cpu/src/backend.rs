@@ -1,8 +1,9 @@
 //! The CPU backend: prepares a scene, then renders ranges of samples into a film, tile by tile, on the rayon pool it is
 //! called from.
 
-use crate::bvh::{Blas, InstanceDesc, SimdLevel, Tlas};
-use crate::interaction::{Interaction, geometric_normal, material_of};
+use crate::accel::Accel;
+use crate::bvh::{Hit, SimdLevel};
+use crate::interaction::{Interaction, material_of};
 use crate::observer::{PathObserver, RayCounter};
 use crate::path;
 use crate::surface::medium;
@@ -13,16 +14,14 @@ use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::{Film, FilmSample};
 use lumbre_core::filter::Filter;
 use lumbre_core::medium::{Medium, MediumStack};
-use lumbre_core::ray::offset_ray_origin;
 use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::View;
 use lumbre_scene::CompiledScene;
-use lumbre_scene::compiled::geometry::InstanceRecord;
 use lumbre_scene::compiled::material::flag;
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
 
 /// Side of a tile, pixels.
 const TILE: u32 = 16;
@@ -31,42 +30,14 @@ const TILE: u32 = 16;
 #[derive(Debug)]
 pub struct CpuBackend {
     scene: CompiledScene,
-    tlas: Tlas,
-    /// The same instances, asked about every hit where back faces are invisible to the camera; `None` if there are none.
-    camera_tlas: Option<Tlas>,
+    accel: Accel,
 }
 
 impl CpuBackend {
     /// Builds the acceleration structures.
     pub fn new(scene: CompiledScene) -> Self {
-        let blas: Vec<Arc<Blas>> = scene
-            .meshes
-            .par_iter()
-            .map(|m| {
-                let (v, t) = (m.first_vertex as usize, m.first_triangle as usize);
-                let positions = &scene.positions[v..v + m.vertex_count as usize];
-                let local = |t: &[u32; 3]| t.map(|i| i - m.first_vertex);
-                let triangles: Vec<[u32; 3]> =
-                    scene.triangles[t..t + m.triangle_count as usize].iter().map(local).collect();
-                Arc::new(Blas::build(bytemuck::cast_slice(positions), &triangles))
-            })
-            .collect();
-        let instances = |camera: bool| -> Vec<InstanceDesc> {
-            let desc = |i: &InstanceRecord| {
-                let mesh = &scene.meshes[i.mesh as usize];
-                InstanceDesc {
-                    blas: i.mesh,
-                    object_to_world: scene.transforms[i.first_transform as usize].object_to_world(),
-                    mask: i.mask,
-                    opaque: mesh.opaque == 1 && !(camera && mesh.culls == 1),
-                }
-            };
-            scene.instances.iter().map(desc).collect()
-        };
-        let culls = scene.meshes.iter().any(|m| m.culls == 1);
-        let camera_tlas = culls.then(|| Tlas::build(&instances(true), blas.clone()));
-        let tlas = Tlas::build(&instances(false), blas);
-        CpuBackend { scene, tlas, camera_tlas }
+        let accel = Accel::new(&scene);
+        CpuBackend { scene, accel }
     }
 
     /// Traverses with `level` from now on; the picture stays the same.
@@ -74,11 +45,7 @@ impl CpuBackend {
     /// # Panics
     /// If the processor does not support it.
     pub fn with_level(self, level: SimdLevel) -> Self {
-        CpuBackend {
-            tlas: self.tlas.with_level(level),
-            camera_tlas: self.camera_tlas.map(|t| t.with_level(level)),
-            ..self
-        }
+        CpuBackend { accel: self.accel.with_level(level), ..self }
     }
 
     /// The scene.
@@ -86,18 +53,13 @@ impl CpuBackend {
         &self.scene
     }
 
-    /// The acceleration structure.
-    pub fn tlas(&self) -> &Tlas {
-        &self.tlas
+    /// The acceleration structures.
+    pub fn accel(&self) -> &Accel {
+        &self.accel
     }
 
     fn shot<'a>(&'a self, view: &'a View, size: [u32; 2]) -> Shot<'a> {
-        let tracer = Tracer {
-            scene: &self.scene,
-            tlas: &self.tlas,
-            camera_tlas: self.camera_tlas.as_ref(),
-            settings: &view.settings,
-        };
+        let tracer = Tracer { scene: &self.scene, accel: &self.accel, settings: &view.settings };
         let (filter, media) = (Filter::new(view.settings.filter), self.media_at(view.camera.origin));
         Shot { tracer, view, filter, media, size }
     }
@@ -156,19 +118,17 @@ impl CpuBackend {
         let mut around: Vec<Medium> = Vec::new();
         const MOST_CROSSINGS: usize = 256;
         for _ in 0..MOST_CROSSINGS {
-            let is_solid = |hit: &crate::bvh::Hit| {
-                self.scene.materials[material_of(&self.scene, hit) as usize].has(flag::SOLID)
-            };
-            let Some(hit) = self.tlas.closest_hit(&ray, is_solid) else { break };
+            let is_solid =
+                |hit: &Hit| self.scene.materials[material_of(&self.scene, hit) as usize].has(flag::SOLID);
+            let Some(hit) = self.accel.closest_hit(&ray, is_solid) else { break };
             let id = material_of(&self.scene, &hit);
             let material = &self.scene.materials[id as usize];
-            let p = Interaction::new(&self.scene, &ray, &hit).p;
-            let ng = geometric_normal(&self.scene, &hit);
-            ray.origin = offset_ray_origin(p, ng, dir);
+            let it = Interaction::new(&self.scene, &ray, &hit);
+            ray.origin = it.leave(dir);
             if !material.has(flag::SOLID) {
                 continue; // opaque instances do not ask the filter
             }
-            if ng.dot(dir) < 0.0 {
+            if it.front {
                 entered.push(id);
             } else if let Some(i) = entered.iter().rposition(|&e| e == id) {
                 entered.remove(i);
@@ -202,7 +162,7 @@ impl Shot<'_> {
         let u = sampler.camera();
         let offset = self.filter.sample(u.filter);
         let film = [0, 1].map(|i| (pixel[i] as f32 + 0.5 + offset[i]) / self.size[i] as f32);
-        let ray = self.view.camera.ray(film, u.lens, u.time);
+        let ray = self.view.camera.ray(film, u.lens, 0.0);
         path::radiance(&self.tracer, ray, self.media, &sampler, observer)
     }
 }

@@ -1,16 +1,19 @@
 //! Where a ray met a surface, in world space.
 
 use crate::bvh::Hit;
-use glam::{Affine3A, Vec3, Vec3A};
+use glam::Vec3;
 use lumbre_core::Ray;
+use lumbre_core::ray::offset_ray_origin;
 use lumbre_scene::CompiledScene;
-use lumbre_scene::compiled::geometry::{InstanceRecord, TransformKey};
+use lumbre_scene::compiled::geometry::{TransformKey, Vertex, attribute};
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interaction {
     /// The point, from its barycentric coordinates.
     pub p: Vec3,
+    /// Bound of the distance to the vertices of its triangle, metres.
+    pub extent: f32,
     /// Unit geometric normal on the front side, the one from which the triangle winds counter-clockwise.
     pub ng: Vec3,
     /// Unit interpolated normal, on the same side as `ng`.
@@ -44,17 +47,54 @@ pub struct HitAttributes {
     pub color: [f32; 4],
 }
 
-/// Transform of an instance at a time. One key holds for all times; more are for motion, which is not drawn yet.
-#[inline]
-pub(crate) fn transform<'a>(scene: &'a CompiledScene, instance: &InstanceRecord) -> &'a TransformKey {
-    &scene.transforms[instance.first_transform as usize]
+/// The records behind a hit.
+struct Records<'a> {
+    key: &'a TransformKey,
+    attributes: u32,
+    triangle: usize,
+    vertices: [usize; 3],
 }
 
-/// Vertex indices of a hit triangle.
+impl<'a> Records<'a> {
+    #[inline]
+    fn new(scene: &'a CompiledScene, hit: &Hit) -> Self {
+        let instance = &scene.instances[hit.instance as usize];
+        let mesh = &scene.meshes[instance.mesh as usize];
+        let triangle = (mesh.first_triangle + hit.triangle) as usize;
+        Records {
+            // One key holds for all times; more are for motion, which is not drawn yet.
+            key: &scene.transforms[instance.first_transform as usize],
+            attributes: mesh.attributes,
+            triangle,
+            vertices: scene.triangles[triangle].map(|v| v as usize),
+        }
+    }
+    #[inline]
+    fn has(&self, attribute: u32) -> bool {
+        self.attributes & attribute != 0
+    }
+    #[inline]
+    fn positions(&self, scene: &CompiledScene) -> [Vec3; 3] {
+        self.vertices.map(|v| Vec3::from_array(scene.positions[v]))
+    }
+    fn attributes(&self, scene: &CompiledScene, w: [f32; 3]) -> HitAttributes {
+        let [a, b, c] = self.vertices.map(|v| &scene.vertices[v]);
+        let mix = |x: f32, y: f32, z: f32| w[0] * x + w[1] * y + w[2] * z;
+        let mut out = HitAttributes { uv: [[0.0; 2]; 2], color: [1.0; 4] };
+        if self.has(attribute::UV) {
+            out.uv =
+                core::array::from_fn(|s| core::array::from_fn(|i| mix(a.uv[s][i], b.uv[s][i], c.uv[s][i])));
+        }
+        if self.has(attribute::COLOR) {
+            out.color = core::array::from_fn(|i| mix(a.color[i], b.color[i], c.color[i]));
+        }
+        out
+    }
+}
+
 #[inline]
-fn vertices(scene: &CompiledScene, hit: &Hit) -> [usize; 3] {
-    let mesh = &scene.meshes[scene.instances[hit.instance as usize].mesh as usize];
-    scene.triangles[(mesh.first_triangle + hit.triangle) as usize].map(|v| v as usize)
+fn weights(hit: &Hit) -> [f32; 3] {
+    [1.0 - hit.b1 - hit.b2, hit.b1, hit.b2]
 }
 
 /// Material of a hit triangle.
@@ -67,69 +107,76 @@ pub fn material_of(scene: &CompiledScene, hit: &Hit) -> u32 {
 /// Geometric normal of a hit triangle on its front side, world space, unit.
 #[inline]
 pub fn geometric_normal(scene: &CompiledScene, hit: &Hit) -> Vec3 {
-    let [p0, p1, p2] = vertices(scene, hit).map(|v| Vec3::from_array(scene.positions[v]));
-    let world_to_object = transform(scene, &scene.instances[hit.instance as usize]).world_to_object();
-    normal_to_world(&world_to_object, (p1 - p0).cross(p2 - p0))
-}
-
-/// Object normals go by the inverse transpose; mirroring then keeps the front side, as glTF asks. Scaled up first, since the
-/// cross product of tiny edges may be too small to square.
-#[inline]
-fn normal_to_world(world_to_object: &Affine3A, n: Vec3) -> Vec3 {
-    let m = world_to_object.matrix3;
-    let n = n / n.abs().max_element().max(f32::MIN_POSITIVE);
-    let n = Vec3A::from(n);
-    let world = Vec3::new(m.x_axis.dot(n), m.y_axis.dot(n), m.z_axis.dot(n));
-    (world / world.abs().max_element().max(f32::MIN_POSITIVE)).normalize_or(Vec3::Y)
+    let records = Records::new(scene, hit);
+    let [p0, p1, p2] = records.positions(scene);
+    unit(records.key.normal((p1 - p0).cross(p2 - p0)))
 }
 
 /// Texture coordinates and colour at a hit.
 pub fn attributes(scene: &CompiledScene, hit: &Hit) -> HitAttributes {
-    let [a, b, c] = vertices(scene, hit).map(|v| &scene.vertices[v]);
-    let w = [1.0 - hit.b1 - hit.b2, hit.b1, hit.b2];
-    let mix = |x: f32, y: f32, z: f32| w[0] * x + w[1] * y + w[2] * z;
-    let uv = core::array::from_fn(|s| core::array::from_fn(|i| mix(a.uv[s][i], b.uv[s][i], c.uv[s][i])));
-    let color = core::array::from_fn(|i| mix(a.color[i], b.color[i], c.color[i]));
-    HitAttributes { uv, color }
+    Records::new(scene, hit).attributes(scene, weights(hit))
+}
+
+/// To unit length, also where the square of the length leaves the range of `f32`.
+#[inline]
+fn unit(n: Vec3) -> Vec3 {
+    let len2 = n.length_squared();
+    if len2 > 1e-30 && len2 < 1e30 {
+        n * (1.0 / len2.sqrt())
+    } else {
+        (n / n.abs().max_element().max(f32::MIN_POSITIVE)).normalize_or(Vec3::Y)
+    }
 }
 
 impl Interaction {
     /// From what the BVH found.
     pub fn new(scene: &CompiledScene, ray: &Ray, hit: &Hit) -> Self {
-        let instance = &scene.instances[hit.instance as usize];
-        let key = transform(scene, instance);
-        let (to_world, to_object) = (key.object_to_world(), key.world_to_object());
-        let index = vertices(scene, hit);
-        let [p0, p1, p2] = index.map(|v| Vec3::from_array(scene.positions[v]));
-        let [v0, v1, v2] = index.map(|v| &scene.vertices[v]);
-        let w = [1.0 - hit.b1 - hit.b2, hit.b1, hit.b2];
+        let records = Records::new(scene, hit);
+        let key = records.key;
+        let [p0, p1, p2] = records.positions(scene);
+        let w = weights(hit);
+        let p = p0 * w[0] + p1 * w[1] + p2 * w[2];
+        let extent = [p0, p1, p2].map(|v| (v - p).abs().max_element());
+        let ng = unit(key.normal((p1 - p0).cross(p2 - p0)));
+        let [v0, v1, v2] = records.vertices.map(|v| &scene.vertices[v]);
         let mix3 = |a: [f32; 3], b: [f32; 3], c: [f32; 3]| {
             Vec3::from_array(a) * w[0] + Vec3::from_array(b) * w[1] + Vec3::from_array(c) * w[2]
         };
-        let p = to_world.transform_point3(p0 * w[0] + p1 * w[1] + p2 * w[2]);
-        let ng = normal_to_world(&to_object, (p1 - p0).cross(p2 - p0));
-        let n = mix3(v0.normal, v1.normal, v2.normal);
-        let ns = if n.length_squared() < 1e-12 { ng } else { normal_to_world(&to_object, n) };
-        let tangent = mix3(
-            [v0.tangent[0], v0.tangent[1], v0.tangent[2]],
-            [v1.tangent[0], v1.tangent[1], v1.tangent[2]],
-            [v2.tangent[0], v2.tangent[1], v2.tangent[2]],
-        );
-        let HitAttributes { uv, color } = attributes(scene, hit);
+        let mut ns = ng;
+        if records.has(attribute::NORMAL) {
+            let n = mix3(v0.normal, v1.normal, v2.normal);
+            if n.length_squared() > 1e-12 {
+                ns = unit(key.normal(n));
+                // Normals that disagree with the winding would turn the surface inside out.
+                ns = if ns.dot(ng) < 0.0 { -ns } else { ns };
+            }
+        }
+        let mut tangent = Vec3::ZERO;
+        if records.has(attribute::TANGENT) {
+            let t = |v: &Vertex| [v.tangent[0], v.tangent[1], v.tangent[2]];
+            tangent = key.vector(mix3(t(v0), t(v1), t(v2)));
+        }
+        let HitAttributes { uv, color } = records.attributes(scene, w);
         Interaction {
-            p,
+            p: key.point(p),
+            extent: extent[0].max(extent[1]).max(extent[2]) * key.scale,
             ng,
-            // Normals that disagree with the winding would turn the surface inside out.
-            ns: if ns.dot(ng) < 0.0 { -ns } else { ns },
-            tangent: to_world.transform_vector3(tangent),
+            ns,
+            tangent,
             bitangent_sign: v0.tangent[3] * key.handedness,
             uv,
             color,
             t: hit.t,
             instance: hit.instance,
             triangle: hit.triangle,
-            material: material_of(scene, hit),
+            material: scene.triangle_materials[records.triangle],
             front: ng.dot(ray.dir) < 0.0,
         }
+    }
+
+    /// Origin of a ray that leaves this point in direction `wi`.
+    #[inline]
+    pub fn leave(&self, wi: Vec3) -> Vec3 {
+        offset_ray_origin(self.p, self.ng, wi, self.extent)
     }
 }

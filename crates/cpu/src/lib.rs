@@ -3,6 +3,7 @@
 //! `unsafe` lives in the SIMD kernels of [`bvh`] and nowhere else.
 #![deny(unsafe_code)]
 
+pub mod accel;
 pub mod backend;
 #[allow(unsafe_code, reason = "SIMD kernels and the dispatch to them")]
 pub mod bvh;

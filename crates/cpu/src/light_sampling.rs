@@ -132,7 +132,8 @@ fn sample_triangle(
             radiance *= surface::coverage(scene, material, &attributes);
         }
     }
-    let end = ShadowEnd::Surface { point: s.point, ng: n.normalize_or(-s.wi) };
+    let extent = geometry.e1.abs().max_element() + geometry.e2.abs().max_element();
+    let end = ShadowEnd::Surface { point: s.point, ng: n.normalize_or(-s.wi), extent };
     (!radiance.is_black()).then_some((s.wi, end, radiance, s.pdf_solid_angle))
 }
 

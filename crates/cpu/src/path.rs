@@ -5,7 +5,7 @@
 use crate::interaction::Interaction;
 use crate::light_sampling::{LightSample, pdf_environment, pdf_sun, pdf_triangle, sample_light, sun};
 use crate::observer::{PathEvent, PathObserver};
-use crate::shadow::ShadowRay;
+use crate::shadow::{Arriving, ShadowRay};
 use crate::surface::{Surface, emission};
 use crate::tracer::{CoverageKey, Tracer};
 use glam::Vec3;
@@ -13,7 +13,6 @@ use lumbre_core::bsdf::{BsdfSample, Lobe, TransportMode};
 use lumbre_core::film::{FilmSample, FirstHit};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::mis::power_heuristic;
-use lumbre_core::ray::offset_ray_origin;
 use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::{RenderSettings, TransmissiveShadows};
 use lumbre_core::{Ray, Spectrum};
@@ -219,8 +218,11 @@ impl<O: PathObserver> Path<'_, '_, O> {
         if f.is_black() {
             return;
         }
-        let transmittance = self.light_transmittance(it, surface, &light, reflects);
-        let mis_weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
+        let Arriving { share: transmittance, through_solid } =
+            self.light_transmittance(it, surface, &light, reflects);
+        // Scattered rays do not find this light, or leave it out.
+        let alone = light.is_delta || through_solid;
+        let mis_weight = if alone { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
         let contribution = self.beta * f * light.radiance * transmittance * (mis_weight / light.pdf);
         self.radiance += contribution;
         self.observer.event(PathEvent::Light {
@@ -240,14 +242,13 @@ impl<O: PathObserver> Path<'_, '_, O> {
         surface: &Surface,
         light: &LightSample,
         reflects: bool,
-    ) -> Spectrum {
+    ) -> Arriving {
         let mut media = self.media;
         if let Some(beyond) = surface.beyond.filter(|_| !reflects) {
             media.cross(beyond, it.material, it.front);
         }
         let shadow = ShadowRay {
-            p: it.p,
-            ng: it.ng,
+            origin: it.leave(light.wi),
             wi: light.wi,
             end: light.end,
             time: self.ray.time,
@@ -264,8 +265,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
         self.beta *= s.weight;
         self.eta_scale *= s.eta_scale;
         self.depth += 1;
-        let origin = offset_ray_origin(it.p, it.ng, wi);
-        self.ray = Ray::new(origin, wi, self.ray.time);
+        self.ray = Ray::new(it.leave(wi), wi, self.ray.time);
         if let Some(beyond) = surface.beyond.filter(|_| s.lobe.is_transmission()) {
             self.media.cross(beyond, it.material, it.front);
         }

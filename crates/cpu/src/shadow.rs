@@ -14,10 +14,8 @@ use lumbre_scene::compiled::material::flag;
 /// A straight line to a light.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowRay {
-    /// From here.
-    pub p: Vec3,
-    /// Geometric normal there.
-    pub ng: Vec3,
+    /// From here, already off the surface.
+    pub origin: Vec3,
     /// Unit direction to the light.
     pub wi: Vec3,
     /// Where it ends.
@@ -43,17 +41,19 @@ pub enum ShadowEnd {
         point: Vec3,
         /// Its geometric normal, either side.
         ng: Vec3,
+        /// Bound of the distance to the vertices of its triangle, metres.
+        extent: f32,
     },
 }
 
 impl ShadowRay {
     fn ray(&self) -> Ray {
-        let origin = offset_ray_origin(self.p, self.ng, self.wi);
+        let origin = self.origin;
         match self.end {
             ShadowEnd::Distance(d) => Ray { t_max: d, ..Ray::new(origin, self.wi, self.time) },
-            ShadowEnd::Surface { point, ng } => {
+            ShadowEnd::Surface { point, ng, extent } => {
                 // Both ends leave their surfaces towards each other, so neither is in the way.
-                let to = offset_ray_origin(point, ng, -self.wi) - origin;
+                let to = offset_ray_origin(point, ng, -self.wi, extent) - origin;
                 let d = to.length();
                 let dir = if d > 0.0 { to / d } else { self.wi };
                 Ray { t_max: d, ..Ray::new(origin, dir, self.time) }
@@ -62,12 +62,26 @@ impl ShadowRay {
     }
 }
 
+/// What arrives along a shadow ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arriving {
+    /// Share of the light; black when something stands in between.
+    pub share: Spectrum,
+    /// It came straight through the surface of a solid. Paths that refract through it leave this light out, so light
+    /// sampling has it to itself.
+    pub through_solid: bool,
+}
+
+impl Arriving {
+    const NOTHING: Arriving = Arriving { share: Spectrum::BLACK, through_solid: false };
+}
+
 /// Most transmissive surfaces that one shadow ray passes.
 const MOST_SURFACES: u32 = 64;
 
 impl Tracer<'_> {
-    /// Share of the light that arrives; black when something stands in between.
-    pub fn transmittance(&self, shadow: &ShadowRay, key: CoverageKey) -> Spectrum {
+    /// How much of the light arrives.
+    pub fn transmittance(&self, shadow: &ShadowRay, key: CoverageKey) -> Arriving {
         let ray = shadow.ray();
         let solids_pass = match self.settings.transmissive_shadows {
             TransmissiveShadows::Auto => shadow.to_delta_light,
@@ -76,7 +90,7 @@ impl Tracer<'_> {
         };
         // Most rays meet nothing transmissive: look for what blocks first.
         let mut meets_transmissive = false;
-        let blocked = self.tlas.any_hit(&ray, |hit| {
+        let blocked = self.accel.any_hit(&ray, |hit| {
             if !self.covered(hit, key) {
                 return false;
             }
@@ -86,23 +100,25 @@ impl Tracer<'_> {
             !passes
         });
         if blocked {
-            Spectrum::BLACK
+            Arriving::NOTHING
         } else if meets_transmissive {
             self.pass_through(ray, shadow, key)
         } else {
-            shadow.media.current().transmittance(ray.t_max)
+            Arriving { share: shadow.media.current().transmittance(ray.t_max), through_solid: false }
         }
     }
 
     /// Follows the ray from one transmissive surface to the next.
-    fn pass_through(&self, ray: Ray, shadow: &ShadowRay, key: CoverageKey) -> Spectrum {
+    fn pass_through(&self, ray: Ray, shadow: &ShadowRay, key: CoverageKey) -> Arriving {
         let mut media = shadow.media;
         let mut walls = shadow.wall_budget;
         let mut factor = Spectrum::WHITE;
+        let mut through_solid = false;
         let mut ray = ray;
         for _ in 0..MOST_SURFACES {
-            let Some(hit) = self.tlas.closest_hit(&ray, |hit| self.covered(hit, key)) else {
-                return factor * media.current().transmittance(ray.t_max - ray.t_min);
+            let Some(hit) = self.accel.closest_hit(&ray, |hit| self.covered(hit, key)) else {
+                let share = factor * media.current().transmittance(ray.t_max - ray.t_min);
+                return Arriving { share, through_solid };
             };
             let it = Interaction::new(self.scene, &ray, &hit);
             let surface = Surface::new(self.scene, &it, -ray.dir, &media, DiffuseSampling::Cosine);
@@ -110,20 +126,21 @@ impl Tracer<'_> {
             let cos = surface.frame.n.dot(ray.dir).abs();
             match surface.beyond {
                 Some(beyond) => {
+                    through_solid = true;
                     factor *= surface.bsdf.straight_transmittance(cos);
                     media.cross(beyond, it.material, it.front);
                 }
-                None if walls == 0 => return Spectrum::BLACK,
+                None if walls == 0 => return Arriving::NOTHING,
                 None => {
                     factor *= surface.bsdf.thin_transmittance(cos);
                     walls -= 1;
                 }
             }
             if factor.is_black() {
-                return Spectrum::BLACK;
+                return Arriving::NOTHING;
             }
             ray.t_min = hit.t;
         }
-        Spectrum::BLACK
+        Arriving::NOTHING
     }
 }

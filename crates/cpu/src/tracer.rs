@@ -1,6 +1,7 @@
 //! Rays against the scene: the closest hit with stochastic coverage and back-face culling.
 
-use crate::bvh::{Hit, Tlas};
+use crate::accel::Accel;
+use crate::bvh::Hit;
 use crate::interaction::{Interaction, attributes, geometric_normal, material_of};
 use crate::surface;
 use lumbre_core::Ray;
@@ -13,10 +14,8 @@ use lumbre_scene::CompiledScene;
 pub struct Tracer<'a> {
     /// Scene.
     pub scene: &'a CompiledScene,
-    /// Its acceleration structure.
-    pub tlas: &'a Tlas,
-    /// The one that asks about back faces, if the scene has any that camera rays do not see.
-    pub camera_tlas: Option<&'a Tlas>,
+    /// Its acceleration structures.
+    pub accel: &'a Accel,
     /// Settings.
     pub settings: &'a RenderSettings,
 }
@@ -56,21 +55,21 @@ impl Tracer<'_> {
     /// The closest surface that a path's ray finds.
     #[inline]
     pub fn closest_hit(&self, ray: &Ray, key: CoverageKey) -> Option<Interaction> {
-        let hit = self.tlas.closest_hit(ray, |hit| self.covered(hit, key))?;
+        let hit = self.accel.closest_hit(ray, |hit| self.covered(hit, key))?;
         Some(Interaction::new(self.scene, ray, &hit))
     }
 
     /// The closest surface that a camera ray finds: back faces of single-sided opaque materials do not count.
     pub fn closest_hit_camera(&self, ray: &Ray, key: CoverageKey) -> Option<Interaction> {
-        let Some(tlas) = self.camera_tlas.filter(|_| !self.settings.shade_back_faces) else {
+        if self.settings.shade_back_faces {
             return self.closest_hit(ray, key);
-        };
+        }
         let visible = |hit: &Hit| {
             let material = &self.scene.materials[material_of(self.scene, hit) as usize];
             let culled = material.culls_back_faces() && geometric_normal(self.scene, hit).dot(ray.dir) >= 0.0;
             !culled && self.covered(hit, key)
         };
-        let hit = tlas.closest_hit(ray, visible)?;
+        let hit = self.accel.closest_hit_camera(ray, visible)?;
         Some(Interaction::new(self.scene, ray, &hit))
     }
 }

@@ -39,16 +39,29 @@ pub(crate) fn write_atomic(
 ) -> Result<(), IoError> {
     let fail = |e: io::Error| IoError::write(path, e);
     let target = write_target(path)?;
-    let folder = match target.parent() {
-        Some(p) if !p.as_os_str().is_empty() => p,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(&target);
     let mut temporary = temporary_beside(folder, &target).map_err(fail)?;
     fill(temporary.as_file_mut()).map_err(|reason| IoError::write(path, reason))?;
     temporary.as_file().sync_all().map_err(fail)?;
     temporary.persist(&target).map_err(|e| fail(e.error))?;
     sync_folder(folder);
     Ok(())
+}
+
+/// Whether a file could be written there now: the target is a regular file or nothing yet, and its folder takes new files.
+/// Leaves nothing behind. What is asked before hours of work may of course have changed after them.
+///
+/// # Errors
+/// `CannotWrite`, as the write itself would fail.
+pub fn check_writable(path: impl AsRef<Path>) -> Result<(), IoError> {
+    let path = path.as_ref();
+    let target = write_target(path)?;
+    temporary_beside(folder_of(&target), &target).map_err(|e| IoError::write(path, e))?;
+    Ok(())
+}
+
+fn folder_of(target: &Path) -> &Path {
+    target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// The file that is really meant: links are followed, so that the link stays and what it points to is replaced.
@@ -125,6 +138,13 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let ok = |_: &mut File| Ok(());
         assert!(write_atomic(dir.path(), ok).unwrap_err().to_string().ends_with("it is a folder"));
+        assert!(check_writable(dir.path()).unwrap_err().to_string().ends_with("it is a folder"));
+        assert_eq!(
+            check_writable(dir.path().join("none/a.png")).unwrap_err().kind(),
+            crate::ErrorKind::CannotWrite
+        );
+        check_writable(dir.path().join("a.png")).unwrap();
+        assert_eq!(names(dir.path()), [""; 0]);
         let e = write_atomic(&dir.path().join("none/out.png"), ok).unwrap_err();
         assert_eq!(e.kind(), crate::ErrorKind::CannotWrite);
         #[cfg(unix)]

@@ -188,7 +188,7 @@ fn nodes_share_meshes_and_carry_transforms() {
     g.doc["nodes"] = json!([
         {"name": "parent ñ", "children": [1, 2], "translation": [1, 2, 3]},
         {"mesh": 0, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1]},
-        {"mesh": 0, "translation": [1, 0, 0], "rotation": [0, 0.70710678, 0, 0.70710678], "scale": [2, -3, 4]}
+        {"mesh": 0, "translation": [1, 0, 0], "rotation": [0, 5, 0, 5], "scale": [2, -3, 4]}
     ]);
     let scene = g.scene();
     assert_eq!(scene.roots, [NodeId(0)]);

@@ -30,7 +30,9 @@ pub trait Backend: Send + Sync {
 
 impl Backend for CpuBackend {
     fn device(&self) -> String {
-        format!("CPU ({}, {} threads)", self.tlas().level().name(), rayon::current_num_threads())
+        let threads = rayon::current_num_threads();
+        let plural = if threads == 1 { "" } else { "s" };
+        format!("CPU ({}, {threads} thread{plural})", self.accel().level().name())
     }
 
     fn render(&self, view: &View, samples: Range<u32>, film: &mut Film, control: &dyn Control) -> Progress {

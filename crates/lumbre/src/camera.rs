@@ -82,6 +82,34 @@ pub fn camera_names(scene: &Scene) -> Vec<String> {
     placed(scene).into_iter().enumerate().map(name).collect()
 }
 
+/// The camera that was chosen; `None`: the default one of a scene that has none.
+fn chosen<'a, 's>(
+    scene: &Scene,
+    cameras: &'a [Placed<'s>],
+    choice: &CameraChoice,
+) -> Result<Option<&'a Placed<'s>>, NoSuchCamera> {
+    let missing = |wanted: String| NoSuchCamera { wanted, available: camera_names(scene) };
+    match choice {
+        CameraChoice::Default => Ok(cameras.first()),
+        CameraChoice::Index(i) => cameras.get(*i).map(Some).ok_or_else(|| missing(i.to_string())),
+        CameraChoice::Name(name) => {
+            let found = cameras.iter().find(|c| c.names.contains(&name.as_str()));
+            found.map(Some).ok_or_else(|| missing(format!("{name:?}")))
+        }
+    }
+}
+
+/// Width over height as the author of the chosen camera framed it; `None` where nothing usable is said.
+///
+/// # Errors
+/// If there is no such camera.
+pub fn authored_aspect(scene: &Scene, choice: &CameraChoice) -> Result<Option<f32>, NoSuchCamera> {
+    let cameras = placed(scene);
+    let Some(camera) = chosen(scene, &cameras, choice)? else { return Ok(None) };
+    let Projection::Perspective { aspect, .. } = camera.camera.projection;
+    Ok(aspect.filter(|a| a.is_finite() && *a > 0.0))
+}
+
 /// Finds or makes the camera for a picture of this aspect (width over height).
 pub fn find_camera(
     scene: &Scene,
@@ -90,16 +118,7 @@ pub fn find_camera(
     aspect: f32,
 ) -> Result<FoundCamera, NoSuchCamera> {
     let cameras = placed(scene);
-    let missing = |wanted: String| NoSuchCamera { wanted, available: camera_names(scene) };
-    let chosen = match &options.choice {
-        CameraChoice::Default => cameras.first(),
-        CameraChoice::Index(i) => Some(cameras.get(*i).ok_or_else(|| missing(i.to_string()))?),
-        CameraChoice::Name(name) => {
-            let found = cameras.iter().find(|c| c.names.contains(&name.as_str()));
-            Some(found.ok_or_else(|| missing(format!("{name:?}")))?)
-        }
-    };
-    let (base, framed) = match chosen {
+    let (base, framed) = match chosen(scene, &cameras, &options.choice)? {
         Some(p) => (from_scene(p, options.fov, aspect), false),
         None => (frame(compiled, options.fov.unwrap_or(DEFAULT_FOV), aspect), true),
     };

@@ -18,12 +18,16 @@
 
 pub mod backend;
 pub mod camera;
+pub mod cancel;
 pub mod compare;
+pub mod light;
 pub mod output;
 pub mod render;
 
 pub use backend::{Backend, Device, prepare};
-pub use camera::{CameraChoice, CameraOptions, find_camera};
+pub use camera::{CameraChoice, CameraOptions, authored_aspect, find_camera};
+pub use cancel::{CancelToken, Watched};
+pub use light::has_light;
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
 pub use lumbre_scene::{CompileError, Compiled, compile};
 pub use render::render;
@@ -35,7 +39,7 @@ pub use lumbre_scene as scene;
 
 /// What most programs need.
 pub mod prelude {
-    pub use crate::{Backend, CameraChoice, CameraOptions, Device, LoadOptions};
+    pub use crate::{Backend, CameraChoice, CameraOptions, CancelToken, Device, LoadOptions};
     pub use lumbre_core::color::Exposure;
     pub use lumbre_core::control::{Control, Progress};
     pub use lumbre_core::settings::{RenderSettings, View};

@@ -8,7 +8,7 @@ use lumbre_io::{ExrImage, ExrLayer};
 /// 8-bit sRGB, three bytes a pixel, row 0 on top: exposure, then the sRGB curve.
 pub fn to_srgb8(film: &Film, exposure: Exposure) -> Vec<u8> {
     let radiance = film.radiance();
-    let factor = exposure.factor(&radiance);
+    let factor = exposure.factor(&radiance, film.width() as usize);
     radiance.iter().flat_map(|p| (*p * factor).to_array().map(srgb_encode_u8)).collect()
 }
 

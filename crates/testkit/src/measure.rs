@@ -19,17 +19,18 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Distance from a value in standard errors; 0 when the value is met within rounding, so that noiseless estimators pass.
-    pub fn z(&self, expected: f64) -> f64 {
-        let distance = (self.mean - expected).abs();
-        if distance <= 1e-5 * expected.abs() { 0.0 } else { distance / self.error }
+    /// Distance from a value in standard errors. `geometry` is the relative error that the shapes themselves make, such as a
+    /// sphere made of triangles; it adds to the spread, as does the rounding of single precision.
+    pub fn z(&self, expected: f64, geometry: f64) -> f64 {
+        let systematic = (geometry + 1e-6) * expected.abs();
+        (self.mean - expected).abs() / (self.error * self.error + systematic * systematic).sqrt()
     }
 
     /// # Panics
     /// Unless the estimate agrees with `expected` within 0.3 % and 4.5 standard errors.
-    pub fn assert_is(&self, expected: f64, what: &str) {
+    pub fn assert_is(&self, expected: f64, geometry: f64, what: &str) {
         let relative = (self.mean / expected - 1.0).abs();
-        let z = self.z(expected);
+        let z = self.z(expected, geometry);
         assert!(
             relative <= 0.003 && z < 4.5,
             "{what}: {:.6} ± {:.6}, expected {expected:.6} (off by {:.3} %, z = {z:.2})",

@@ -26,10 +26,6 @@ pub struct CameraSample {
     pub filter: [f32; 2],
     /// Position on the lens.
     pub lens: [f32; 2],
-    /// Moment in the shutter interval.
-    pub time: f32,
-    /// Wavelength.
-    pub wavelength: f32,
 }
 
 /// The numbers that choose where a path goes on from a vertex.
@@ -76,9 +72,20 @@ impl Sampler {
     /// The numbers of the camera ray.
     #[inline]
     pub fn camera(&self) -> CameraSample {
-        let a = self.set(0);
-        let b = self.set(1);
-        CameraSample { filter: [a[0], a[1]], lens: [a[2], a[3]], time: b[0], wavelength: b[1] }
+        let s = self.set(0);
+        CameraSample { filter: [s[0], s[1]], lens: [s[2], s[3]] }
+    }
+
+    /// Moment in the shutter interval.
+    #[inline]
+    pub fn time(&self) -> f32 {
+        self.set(1)[0]
+    }
+
+    /// Wavelength.
+    #[inline]
+    pub fn wavelength(&self) -> f32 {
+        self.set(1)[1]
     }
 
     /// The numbers that send the path on from vertex `k` (0 is the first surface hit).

@@ -10,6 +10,9 @@ use crate::hash::{hash_combine, hash_u32};
 const POLYNOMIALS: [(usize, u32, [u32; 3]); 3] = [(1, 0, [1, 0, 0]), (2, 1, [1, 3, 0]), (3, 1, [1, 3, 1])];
 
 /// Column `j` of each generator matrix, as a binary fraction in 32 bits: index bit `j` toggles it.
+///
+/// Scrambling works on bits in reverse order, so the tables below hold these columns reversed and are addressed by the
+/// reversed index: nothing is turned around in between.
 const fn direction_numbers() -> [[u32; 4]; 32] {
     let mut v = [[0u32; 4]; 32];
     let mut j = 0;
@@ -54,7 +57,7 @@ const fn byte_tables() -> [[[u32; 4]; 256]; 4] {
             let rest = value & (value - 1);
             let mut d = 0;
             while d < 4 {
-                t[byte][value][d] = t[byte][rest][d] ^ v[byte * 8 + low][d];
+                t[byte][value][d] = t[byte][rest][d] ^ v[31 - (byte * 8 + low)][d].reverse_bits();
                 d += 1;
             }
             value += 1;
@@ -66,10 +69,10 @@ const fn byte_tables() -> [[[u32; 4]; 256]; 4] {
 
 static TABLES: [[[u32; 4]; 256]; 4] = byte_tables();
 
-/// Point `index` of the plain Sobol sequence.
+/// Point of the plain Sobol sequence with the bits of its coordinates reversed, of the index with its bits reversed.
 #[inline]
-pub fn sobol(index: u32) -> [u32; 4] {
-    let [b0, b1, b2, b3] = index.to_le_bytes();
+fn sobol_reversed(reversed_index: u32) -> [u32; 4] {
+    let [b0, b1, b2, b3] = reversed_index.to_le_bytes();
     let mut x = TABLES[0][b0 as usize];
     for (t, b) in [(1, b1), (2, b2), (3, b3)] {
         let row = &TABLES[t][b as usize];
@@ -78,6 +81,11 @@ pub fn sobol(index: u32) -> [u32; 4] {
         }
     }
     x
+}
+
+/// Point `index` of the plain Sobol sequence, as binary fractions.
+pub fn sobol(index: u32) -> [u32; 4] {
+    sobol_reversed(index.reverse_bits()).map(u32::reverse_bits)
 }
 
 /// A hash in which each bit is moved only by those below it: an Owen scramble of the bit-reversed value.
@@ -90,20 +98,14 @@ fn laine_karras(mut x: u32, seed: u32) -> u32 {
     x ^ x.wrapping_mul(0x53a2_2864)
 }
 
-/// Nested uniform (Owen) scramble of a binary fraction.
-#[inline]
-pub fn owen_scramble(x: u32, seed: u32) -> u32 {
-    laine_karras(x.reverse_bits(), seed).reverse_bits()
-}
-
-/// Point `index` of the Sobol sequence with its order shuffled and its digits scrambled, both by `key`.
-/// Every aligned power-of-two block of indices stays a scrambled Sobol net.
+/// Point `index` of the Sobol sequence with its order shuffled and its digits scrambled (nested uniform scrambles, Owen 1995),
+/// both by `key`. Every aligned power-of-two block of indices stays a scrambled Sobol net.
 #[inline]
 pub fn shuffled_scrambled(index: u32, key: u32) -> [u32; 4] {
-    let mut x = sobol(owen_scramble(index, key));
+    let mut x = sobol_reversed(laine_karras(index.reverse_bits(), key));
     let mut seed = hash_u32(key ^ 0xa511_e9b3);
     for v in &mut x {
-        *v = owen_scramble(*v, seed);
+        *v = laine_karras(*v, seed).reverse_bits();
         seed = hash_combine(seed, 0x63d8_3595);
     }
     x

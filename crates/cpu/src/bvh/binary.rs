@@ -282,12 +282,11 @@ impl Grid {
     fn fill(&self, prims: &[Prim]) -> Bins {
         let mut bins = Bins { bounds: [[Bounds::EMPTY; MAX_BINS]; 3], counts: [[0; MAX_BINS]; 3] };
         for p in prims {
-            let at = self.bin_all(p);
             let b = p.bounds();
-            for axis in 0..3 {
-                let slot = &mut bins.bounds[axis][at[axis]];
+            for (axis, bin) in self.bin_all(p).into_iter().enumerate() {
+                let slot = &mut bins.bounds[axis][bin];
                 *slot = slot.union(b);
-                bins.counts[axis][at[axis]] += 1;
+                bins.counts[axis][bin] += 1;
             }
         }
         bins

@@ -112,10 +112,7 @@ impl Blas {
                 query,
                 ended: false,
             };
-            match Q::ANY {
-                true => walk::<S, true>(&self.nodes, root, &wide, t_best, &mut leaf),
-                false => walk::<S, false>(&self.nodes, root, &wide, t_best, &mut leaf),
-            }
+            walk::<S>(&self.nodes, root, &wide, t_best, &mut leaf);
             leaf.ended
         }
     }

@@ -13,11 +13,13 @@
 //! - **Binned SAH, then an optimal collapse.** Embree opens the child of largest area while it builds; we build
 //!   binary, which parallelises cleanly over disjoint slices, and choose the children by dynamic programming,
 //!   which also decides how many packets of triangles a leaf holds.
-//! - **Packets of four triangles with their vertices in place**, as Embree's robust mode (`Triangle4v`): no indirection, and
-//!   the original floats, which the watertight test needs.
+//! - **Packets of eight triangles with their vertices in place**: no indirection, and the original floats, which the
+//!   watertight test needs. Embree and tinybvh take four; eight cost the same instructions here, fill just as well (the
+//!   heuristic counts packets, not triangles) and halve the nodes: 5 to 10 % faster on all rays, 20 % faster to build.
 //! - **One ray at a time**: path tracing sends incoherent rays, for which packets gain nothing (measured on Embree).
 //! - **Distance-sorted children** as in Embree, rather than tinybvh's fixed order per octant: fewer nodes visited after
 //!   the first bounce.
+//! - **Children are prefetched** as they are found: 15 % on diffuse bounces, which wait for memory more than for anything.
 //! - **Dispatch at the top** of each query to a copy of the whole traversal compiled for that level.
 //!
 //! Left out: spatial splits, motion keys (see `instance.rs` for the room left for them), refitting of a [`Blas`].

@@ -4,9 +4,6 @@ use super::Hit;
 
 /// Takes the hits found with `t_min < t <= t_best`, in any order.
 pub(super) trait Query {
-    /// The first hit accepted ends the traversal, so that its order matters little.
-    const ANY: bool;
-
     /// Takes one hit; may lower `t_best`. Returns true to end the traversal.
     fn offer(&mut self, hit: Hit, opaque: bool, t_best: &mut f32) -> bool;
 }
@@ -33,8 +30,6 @@ impl<F> Closest<F> {
 }
 
 impl<F: FnMut(&Hit) -> bool> Query for Closest<F> {
-    const ANY: bool = false;
-
     #[inline(always)]
     fn offer(&mut self, hit: Hit, opaque: bool, t_best: &mut f32) -> bool {
         let best = &self.best;
@@ -57,8 +52,6 @@ pub(super) struct Any<F> {
 }
 
 impl<F: FnMut(&Hit) -> bool> Query for Any<F> {
-    const ANY: bool = true;
-
     #[inline(always)]
     fn offer(&mut self, hit: Hit, opaque: bool, _: &mut f32) -> bool {
         self.found = hit.t < self.t_max && (opaque || (self.filter)(&hit));

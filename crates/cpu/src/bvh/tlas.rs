@@ -228,10 +228,7 @@ impl Tlas {
             let Some(world) = TravRay::new(ray.origin, ray.dir, ray.t_min, &self.bounds, margin) else {
                 return;
             };
-            match Q::ANY {
-                true => walk::<S, true>(&self.nodes, root, &S::ray(&world), &mut t_best, &mut leaf),
-                false => walk::<S, false>(&self.nodes, root, &S::ray(&world), &mut t_best, &mut leaf),
-            }
+            walk::<S>(&self.nodes, root, &S::ray(&world), &mut t_best, &mut leaf);
         }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! One walk serves both tree levels and both kinds of query; it is inlined into functions compiled for each SIMD level.
 
+use super::collapse::WIDTH;
 use super::simd::{Near, Simd, prefetch};
 use super::wide::{Child, STACK, WideNode};
 use std::mem::MaybeUninit;
@@ -46,14 +47,14 @@ impl Stack {
         None
     }
 
-    /// Sorts the entries from `base` on, the nearest last.
+    /// Sorts the entries from `base` on, of which the first `sorted` already are, the nearest last.
     #[inline(always)]
-    fn sort_from(&mut self, base: usize) {
+    fn sort(&mut self, base: usize, sorted: usize) {
         // SAFETY: below `len` all entries were written, and `u64` has the layout of `MaybeUninit<u64>`.
         let top = unsafe {
             std::slice::from_raw_parts_mut(self.entries.as_mut_ptr().add(base).cast::<u64>(), self.len - base)
         };
-        for i in 1..top.len() {
+        for i in sorted..top.len() {
             let e = top[i];
             let mut j = i;
             while j > 0 && top[j - 1] < e {
@@ -63,6 +64,21 @@ impl Stack {
             top[j] = e;
         }
     }
+
+    /// The last entry, which there is.
+    #[inline(always)]
+    fn take_last(&mut self) -> Child {
+        debug_assert!(self.len > 0);
+        self.len -= 1;
+        // SAFETY: below `len` all entries were written.
+        Child(unsafe { self.entries.get_unchecked(self.len).assume_init() } as u32)
+    }
+}
+
+/// The nearer and the farther one, without a branch.
+#[inline(always)]
+fn order(a: u64, b: u64) -> (u64, u64) {
+    (a.min(b), a.max(b))
 }
 
 /// What to do at a leaf. Not a closure: those cannot be forced inline, and outside of the functions compiled for a SIMD
@@ -84,13 +100,63 @@ fn address(nodes: &[WideNode], child: Child) -> *const u8 {
     nodes.as_ptr().wrapping_add(child.0 as usize).cast()
 }
 
-/// Visits the leaves that the ray may enter up to `t_best`, the nearest boxes first, until one returns true. With `ANY` the
-/// order is not kept up: it does not pay if the first hit ends the walk.
+/// The nearest of the children in `mask`, which is not empty; the others go onto the stack, the farthest first. Each is
+/// announced.
+#[inline(always)]
+fn choose(stack: &mut Stack, node: &WideNode, mut mask: u32, near: &Near, announce: impl Fn(Child)) -> Child {
+    let mut take = || {
+        let lane = mask.trailing_zeros() as usize & (WIDTH - 1);
+        mask &= mask - 1;
+        announce(node.children[lane]);
+        (entry(near.0[lane], node.children[lane]), mask)
+    };
+    let (first, rest) = take();
+    if rest == 0 {
+        return Child(first as u32);
+    }
+    let (second, rest) = take();
+    let (a, b) = order(first, second);
+    if rest == 0 {
+        stack.push(b);
+        return Child(a as u32);
+    }
+    // Three and four children are sorted without branches, more are rare.
+    let (third, rest) = take();
+    let (b, c) = order(b, third);
+    let (a, b) = order(a, b);
+    if rest == 0 {
+        stack.push(c);
+        stack.push(b);
+        return Child(a as u32);
+    }
+    let (fourth, mut rest) = take();
+    let (c, d) = order(c, fourth);
+    let (b, c) = order(b, c);
+    let (a, b) = order(a, b);
+    let base = stack.len;
+    stack.push(d);
+    stack.push(c);
+    stack.push(b);
+    if rest == 0 {
+        return Child(a as u32);
+    }
+    stack.push(a);
+    while rest != 0 {
+        let next;
+        (next, rest) = take();
+        stack.push(next);
+    }
+    stack.sort(base, 4);
+    stack.take_last()
+}
+
+/// Visits the leaves that the ray may enter up to `t_best`, the nearest boxes first, until one returns true. Any
+/// hit is found sooner in that order too (measured: 4 to 10 % on shadow rays).
 ///
 /// # Safety
 /// The processor must support `S`; `nodes` and `root` must come from one call of [`super::wide::collapse`].
 #[inline(always)]
-pub(super) unsafe fn walk<S: Simd, const ANY: bool>(
+pub(super) unsafe fn walk<S: Simd>(
     nodes: &[WideNode],
     root: Child,
     ray: &S::Ray,
@@ -98,15 +164,16 @@ pub(super) unsafe fn walk<S: Simd, const ANY: bool>(
     leaf: &mut impl Leaf,
 ) {
     let mut stack = Stack::new();
-    let mut near = Near([0.0; 8]);
+    let mut near = Near([0.0; WIDTH]);
     let mut current = root;
     loop {
         // Descend to a leaf.
         while !current.is_leaf() {
             debug_assert!((current.0 as usize) < nodes.len());
-            // SAFETY: inner children index the nodes of their tree; the caller vouches for the level.
+            // SAFETY: inner children index the nodes of their tree.
             let node = unsafe { nodes.get_unchecked(current.0 as usize) };
-            let mut mask = unsafe { S::boxes(node, ray, *t_best, &mut near) };
+            // SAFETY: the caller vouches for the level.
+            let mask = unsafe { S::boxes(node, ray, *t_best, &mut near) };
             if mask == 0 {
                 match stack.pop(*t_best) {
                     Some(child) => current = child,
@@ -114,39 +181,9 @@ pub(super) unsafe fn walk<S: Simd, const ANY: bool>(
                 }
                 continue;
             }
-            let mut take = || {
-                let lane = mask.trailing_zeros() as usize & 7;
-                mask &= mask - 1;
-                let child = node.children[lane];
+            current = choose(&mut stack, node, mask, &near, |child| {
                 prefetch(if child.is_leaf() { leaf.address(child) } else { address(nodes, child) });
-                (entry(near.0[lane], child), mask)
-            };
-            let (first, rest) = take();
-            if rest == 0 {
-                current = Child(first as u32);
-                continue;
-            }
-            let (second, mut rest) = take();
-            if rest == 0 {
-                let (closer, farther) = if first <= second { (first, second) } else { (second, first) };
-                stack.push(farther);
-                current = Child(closer as u32);
-                continue;
-            }
-            let base = stack.len;
-            stack.push(first);
-            stack.push(second);
-            while rest != 0 {
-                let next;
-                (next, rest) = take();
-                stack.push(next);
-            }
-            if !ANY {
-                stack.sort_from(base);
-            }
-            stack.len -= 1;
-            // SAFETY: just pushed.
-            current = Child(unsafe { stack.entries.get_unchecked(stack.len).assume_init() } as u32);
+            });
         }
         // SAFETY: a leaf of this tree; the caller vouches for the level.
         if unsafe { leaf.visit(current, t_best) } {

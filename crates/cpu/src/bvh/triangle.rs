@@ -17,12 +17,12 @@ use super::ray::TravRay;
 use glam::Vec3;
 
 /// Triangles tested at once.
-pub(super) const LANES: usize = 4;
+pub(super) const LANES: usize = 8;
 
 /// Vertices of [`LANES`] triangles: row `3 v + axis` holds that coordinate of vertex `v`. A packet that is not full repeats
 /// its last triangle, which changes no result and needs no mask.
 #[derive(Clone, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(super) struct Packet {
     pub(super) rows: [[f32; LANES]; 9],
     /// Index of each triangle in its mesh.

@@ -33,6 +33,38 @@ pub struct LoadedEnvironment {
     pub warnings: Vec<String>,
 }
 
+/// What the values in a picture file stand for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// Radiance of any size (EXR, HDR).
+    Scene,
+    /// What a screen shows, black 0 to white 1 (PNG, JPEG).
+    Display,
+}
+
+/// Reads a picture as [`read_linear_image`] does, and says what its values stand for.
+///
+/// # Errors
+/// As [`read_linear_image`].
+pub fn read_picture(
+    path: impl AsRef<Path>,
+    layer: Option<&str>,
+    limits: &Limits,
+) -> Result<(LinearImage, Range), IoError> {
+    let path = path.as_ref();
+    let bytes = files::read_file(path, limits.max_file_bytes)?;
+    if exr::is_exr(&bytes) {
+        return Ok((exr::linear(path, exr::decode(path, &bytes, limits)?, layer)?, Range::Scene));
+    }
+    if let Some(layer) = layer {
+        return Err(IoError::data(path, "", format!("only EXR files have layers; there is no {layer:?}")));
+    }
+    if hdr::is_hdr(&bytes) {
+        return Ok((hdr::decode(path, &bytes, limits)?, Range::Scene));
+    }
+    Ok((ldr::decode_linear(&bytes, path, limits)?, Range::Display))
+}
+
 /// Reads a picture: EXR, Radiance HDR, or PNG and JPEG, whose sRGB curve is undone and whose alpha is ignored.
 /// `layer` names a layer of an EXR; `None` is the picture itself.
 ///
@@ -43,18 +75,7 @@ pub fn read_linear_image(
     layer: Option<&str>,
     limits: &Limits,
 ) -> Result<LinearImage, IoError> {
-    let path = path.as_ref();
-    let bytes = files::read_file(path, limits.max_file_bytes)?;
-    if exr::is_exr(&bytes) {
-        return exr::linear(path, exr::decode(path, &bytes, limits)?, layer);
-    }
-    if let Some(layer) = layer {
-        return Err(IoError::data(path, "", format!("only EXR files have layers; there is no {layer:?}")));
-    }
-    if hdr::is_hdr(&bytes) {
-        return hdr::decode(path, &bytes, limits);
-    }
-    ldr::decode_linear(&bytes, path, limits)
+    read_picture(path, layer, limits).map(|(image, _)| image)
 }
 
 /// Reads a latitude-longitude environment map: Radiance HDR, EXR, or PNG and JPEG (whose range is small). Texels that are

@@ -20,7 +20,7 @@ pub struct Primitive {
     pub colors: Vec<Vec4>,
     /// Three vertex indices per triangle, each below `positions.len()`.
     pub indices: Vec<u32>,
-    /// `None`: the default material (grey-white, glTF's).
+    /// `None`: a white, two-sided dielectric.
     pub material: Option<MaterialId>,
 }
 

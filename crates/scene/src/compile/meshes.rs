@@ -1,7 +1,7 @@
 //! Meshes and the instances of them.
 
 use super::{CompileError, Placed, check, grow, index32, tangents};
-use crate::compiled::geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex};
+use crate::compiled::geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex, attribute};
 use crate::compiled::material::flag;
 use crate::compiled::{CompiledScene, NONE};
 use crate::{Mesh, Primitive, Scene};
@@ -63,7 +63,7 @@ fn add_mesh(
         // The default material stands behind the authored ones.
         let material = primitive.material.map_or(scene.materials.len(), |m| m.index());
         let record = &out.materials[material];
-        opaque &= !record.has_coverage() && record.transmission == 0.0;
+        opaque &= record.is_opaque();
         culls |= record.culls_back_faces();
         emissive |= record.has(flag::EMISSIVE);
         let normal_map = record.normal_texture;
@@ -90,8 +90,18 @@ fn add_mesh(
         first_emissive_rank,
         opaque: u32::from(opaque),
         culls: u32::from(culls),
+        attributes: attributes(&out.vertices[first_vertex..]),
     });
     Ok(())
+}
+
+/// What these vertices have, as bits.
+fn attributes(vertices: &[Vertex]) -> u32 {
+    let bit = |has: fn(&Vertex) -> bool, bit: u32| if vertices.iter().any(has) { bit } else { 0 };
+    bit(|v| v.normal != [0.0; 3], attribute::NORMAL)
+        | bit(|v| v.tangent != [0.0; 4], attribute::TANGENT)
+        | bit(|v| v.uv != [[0.0; 2]; 2], attribute::UV)
+        | bit(|v| v.color != [1.0; 4], attribute::COLOR)
 }
 
 /// Numbers the emissive triangles of the mesh that begins at `first_triangle`.

@@ -2,7 +2,7 @@
 
 use super::NONE;
 use bytemuck::{Pod, Zeroable};
-use glam::{Affine3A, Mat3A, Vec3A};
+use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 
 /// Attributes of a vertex, object space.
 #[repr(C)]
@@ -16,6 +16,18 @@ pub struct Vertex {
     pub uv: [[f32; 2]; 2],
     /// Linear colour and alpha.
     pub color: [f32; 4],
+}
+
+/// Bits of [`MeshRecord::attributes`]: some vertex of the mesh has them.
+pub mod attribute {
+    /// Normals that are not zero.
+    pub const NORMAL: u32 = 1;
+    /// Tangents that are not zero.
+    pub const TANGENT: u32 = 2;
+    /// Texture coordinates that are not zero.
+    pub const UV: u32 = 4;
+    /// Colours that are not white.
+    pub const COLOR: u32 = 8;
 }
 
 /// A mesh: a range of triangles and of vertices.
@@ -36,6 +48,8 @@ pub struct MeshRecord {
     pub opaque: u32,
     /// 1 when camera rays must look which side of a triangle they meet.
     pub culls: u32,
+    /// Bits of [`attribute`]: what its vertices have.
+    pub attributes: u32,
 }
 
 /// A mesh placed in the world.
@@ -66,6 +80,8 @@ pub struct TransformKey {
     pub world_to_object: [[f32; 4]; 3],
     /// +1, or -1 where the transform mirrors: it turns the side that winding makes the front.
     pub handedness: f32,
+    /// Largest factor by which it stretches a length.
+    pub scale: f32,
     /// Moment in the shutter interval, 0 to 1.
     pub time: f32,
 }
@@ -78,8 +94,35 @@ impl TransformKey {
             object_to_world: to_rows(object_to_world),
             world_to_object: to_rows(object_to_world.inverse()),
             handedness,
+            // The Frobenius norm: never below the largest stretch, at most √3 above.
+            scale: (object_to_world.matrix3.x_axis.length_squared()
+                + object_to_world.matrix3.y_axis.length_squared()
+                + object_to_world.matrix3.z_axis.length_squared())
+            .sqrt(),
             time,
         }
+    }
+    /// A point of the object in world space.
+    #[inline]
+    pub fn point(&self, p: Vec3) -> Vec3 {
+        let row = |r: &[f32; 4]| r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3];
+        let [x, y, z] = &self.object_to_world;
+        Vec3::new(row(x), row(y), row(z))
+    }
+    /// A vector of the object in world space.
+    #[inline]
+    pub fn vector(&self, v: Vec3) -> Vec3 {
+        let row = |r: &[f32; 4]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
+        let [x, y, z] = &self.object_to_world;
+        Vec3::new(row(x), row(y), row(z))
+    }
+    /// A normal of the object in world space, not of unit length: by the inverse transpose, so that mirroring keeps the front side,
+    /// as glTF asks.
+    #[inline]
+    pub fn normal(&self, n: Vec3) -> Vec3 {
+        let row = |r: &[f32; 4]| Vec3::new(r[0], r[1], r[2]);
+        let [x, y, z] = &self.world_to_object;
+        row(x) * n.x + row(y) * n.y + row(z) * n.z
     }
     /// Object to world.
     #[inline]
@@ -120,7 +163,7 @@ impl MeshRecord {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{Quat, Vec3};
+    use glam::Quat;
 
     #[test]
     fn transforms_survive_the_record() {
@@ -134,5 +177,10 @@ mod tests {
         assert_eq!(key.handedness, -1.0);
         let p = Vec3::new(0.1, 0.2, 0.3);
         assert!((key.world_to_object().transform_point3(a.transform_point3(p)) - p).length() < 1e-5);
+        assert!((key.point(p) - a.transform_point3(p)).length() < 1e-6);
+        assert!((key.vector(p) - a.transform_vector3(p)).length() < 1e-6);
+        // A normal stays perpendicular to what it was perpendicular to.
+        assert!(key.normal(Vec3::new(0.2, -0.1, 0.0)).dot(key.vector(p)).abs() < 1e-6);
+        assert!(key.scale >= 3.0);
     }
 }

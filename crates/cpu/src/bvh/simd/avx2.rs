@@ -14,16 +14,18 @@ pub(in crate::bvh) struct RayAvx2 {
     near: [__m256; 3],
     far: [__m256; 3],
     t_min: __m256,
-    near_row: [usize; 3],
+    /// Byte offsets of the near planes; those of the far ones differ in the bit of 32.
+    near_at: [usize; 3],
     pub(super) triangle: TriangleRay,
 }
 
 /// The part of the ray that the triangle filter uses, axes in sheared order.
 pub(in crate::bvh) struct TriangleRay {
-    origin: [__m128; 3],
-    shear: [__m128; 3],
-    t_min: __m128,
-    axes: [usize; 3],
+    origin: [__m256; 3],
+    shear: [__m256; 3],
+    t_min: __m256,
+    /// Byte offsets of the axes in a vertex.
+    axes_at: [usize; 3],
 }
 
 impl Simd for Avx2 {
@@ -38,7 +40,7 @@ impl Simd for Avx2 {
                 near: splat(ray.near),
                 far: splat(ray.far),
                 t_min: _mm256_set1_ps(ray.t_min),
-                near_row: ray.near_row,
+                near_at: [32 * ray.near_row[0], 32 * ray.near_row[1], 32 * ray.near_row[2]],
                 triangle: triangle_ray(ray),
             }
         }
@@ -46,16 +48,17 @@ impl Simd for Avx2 {
 
     #[inline(always)]
     unsafe fn boxes(node: &WideNode, ray: &RayAvx2, t_best: f32, near: &mut Near) -> u32 {
-        // SAFETY: the caller vouches for AVX2; rows are 32 bytes of a node aligned to 64, and row numbers are below 6.
+        // SAFETY: the caller vouches for AVX2; `near_at` holds offsets of rows, and flipping the bit leads to their twins.
         unsafe {
-            let [nx, ny, nz] = ray.near_row;
+            let [nx, ny, nz] = ray.near_at;
+            let [fx, fy, fz] = [nx ^ 32, ny ^ 32, nz ^ 32];
             let [rx, ry, rz] = ray.rdir;
             let enter_x = _mm256_fmsub_ps(row(node, nx), rx, ray.near[0]);
             let enter_y = _mm256_fmsub_ps(row(node, ny), ry, ray.near[1]);
             let enter_z = _mm256_fmsub_ps(row(node, nz), rz, ray.near[2]);
-            let leave_x = _mm256_fmsub_ps(row(node, nx ^ 1), rx, ray.far[0]);
-            let leave_y = _mm256_fmsub_ps(row(node, ny ^ 1), ry, ray.far[1]);
-            let leave_z = _mm256_fmsub_ps(row(node, nz ^ 1), rz, ray.far[2]);
+            let leave_x = _mm256_fmsub_ps(row(node, fx), rx, ray.far[0]);
+            let leave_y = _mm256_fmsub_ps(row(node, fy), ry, ray.far[1]);
+            let leave_z = _mm256_fmsub_ps(row(node, fz), rz, ray.far[2]);
             let t0 = _mm256_max_ps(_mm256_max_ps(enter_x, enter_y), _mm256_max_ps(enter_z, ray.t_min));
             let t1 = _mm256_min_ps(
                 _mm256_min_ps(leave_x, leave_y),
@@ -82,12 +85,12 @@ pub(super) unsafe fn splat(v: [f32; 3]) -> [__m256; 3] {
 }
 
 /// # Safety
-/// See [`splat`]; `i < 6`.
+/// See [`splat`]; `at` is the byte offset of a row.
 #[inline(always)]
-pub(super) unsafe fn row(node: &WideNode, i: usize) -> __m256 {
-    debug_assert!(i < 6);
-    // SAFETY: the caller vouches for AVX2 and `i`; rows are 32 bytes long in a node aligned to 64.
-    unsafe { _mm256_load_ps(node.planes.as_ptr().add(i).cast()) }
+pub(super) unsafe fn row(node: &WideNode, at: usize) -> __m256 {
+    debug_assert!(at < 192 && at.is_multiple_of(32));
+    // SAFETY: the caller vouches for AVX2 and `at`; rows are 32 bytes long in a node aligned to 64.
+    unsafe { _mm256_load_ps(node.planes.as_ptr().byte_add(at).cast()) }
 }
 
 /// # Safety
@@ -98,10 +101,14 @@ pub(super) unsafe fn triangle_ray(ray: &TravRay) -> TriangleRay {
     // SAFETY: the caller vouches for AVX2.
     unsafe {
         TriangleRay {
-            origin: [_mm_set1_ps(ray.origin[x]), _mm_set1_ps(ray.origin[y]), _mm_set1_ps(ray.origin[z])],
-            shear: [_mm_set1_ps(ray.shear[0]), _mm_set1_ps(ray.shear[1]), _mm_set1_ps(ray.shear[2])],
-            t_min: _mm_set1_ps(ray.t_min),
-            axes: ray.axes,
+            origin: [
+                _mm256_set1_ps(ray.origin[x]),
+                _mm256_set1_ps(ray.origin[y]),
+                _mm256_set1_ps(ray.origin[z]),
+            ],
+            shear: [_mm256_set1_ps(ray.shear[0]), _mm256_set1_ps(ray.shear[1]), _mm256_set1_ps(ray.shear[2])],
+            t_min: _mm256_set1_ps(ray.t_min),
+            axes_at: [32 * x, 32 * y, 32 * z],
         }
     }
 }
@@ -111,17 +118,17 @@ pub(super) unsafe fn triangle_ray(ray: &TravRay) -> TriangleRay {
 /// # Safety
 /// See [`splat`]; `v < 3`.
 #[inline(always)]
-unsafe fn vertex(packet: &Packet, ray: &TriangleRay, v: usize) -> [__m128; 3] {
-    // SAFETY: the caller vouches for AVX2 and `v`; axes are below 3, and rows are 16 bytes long in a packet aligned to 32.
+unsafe fn vertex(packet: &Packet, ray: &TriangleRay, v: usize) -> [__m256; 3] {
+    // SAFETY: the caller vouches for AVX2 and `v`; rows are 32 bytes long in a packet aligned to 64.
     unsafe {
         let rows = packet.rows.as_ptr().add(3 * v);
-        let x = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[0]).cast()), ray.origin[0]);
-        let y = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[1]).cast()), ray.origin[1]);
-        let z = _mm_sub_ps(_mm_load_ps(rows.add(ray.axes[2]).cast()), ray.origin[2]);
+        let x = _mm256_sub_ps(_mm256_load_ps(rows.byte_add(ray.axes_at[0]).cast()), ray.origin[0]);
+        let y = _mm256_sub_ps(_mm256_load_ps(rows.byte_add(ray.axes_at[1]).cast()), ray.origin[1]);
+        let z = _mm256_sub_ps(_mm256_load_ps(rows.byte_add(ray.axes_at[2]).cast()), ray.origin[2]);
         [
-            _mm_sub_ps(x, _mm_mul_ps(ray.shear[0], z)),
-            _mm_sub_ps(y, _mm_mul_ps(ray.shear[1], z)),
-            _mm_mul_ps(ray.shear[2], z),
+            _mm256_sub_ps(x, _mm256_mul_ps(ray.shear[0], z)),
+            _mm256_sub_ps(y, _mm256_mul_ps(ray.shear[1], z)),
+            _mm256_mul_ps(ray.shear[2], z),
         ]
     }
 }
@@ -129,9 +136,9 @@ unsafe fn vertex(packet: &Packet, ray: &TriangleRay, v: usize) -> [__m128; 3] {
 /// # Safety
 /// See [`splat`].
 #[inline(always)]
-unsafe fn edge(p: &[__m128; 3], q: &[__m128; 3]) -> __m128 {
+unsafe fn edge(p: &[__m256; 3], q: &[__m256; 3]) -> __m256 {
     // SAFETY: the caller vouches for AVX2.
-    unsafe { _mm_sub_ps(_mm_mul_ps(p[0], q[1]), _mm_mul_ps(p[1], q[0])) }
+    unsafe { _mm256_sub_ps(_mm256_mul_ps(p[0], q[1]), _mm256_mul_ps(p[1], q[0])) }
 }
 
 /// # Safety
@@ -143,21 +150,24 @@ pub(super) unsafe fn triangles(
     t_best: f32,
     sheared: &mut Sheared,
 ) -> u32 {
-    // SAFETY: the caller vouches for AVX2; rows of `sheared` are 16 bytes long.
+    // SAFETY: the caller vouches for AVX2; rows of `sheared` are 32 bytes long.
     unsafe {
         let (a, b, c) = (vertex(packet, ray, 0), vertex(packet, ray, 1), vertex(packet, ray, 2));
         let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
-        let zero = _mm_setzero_ps();
-        let low = _mm_cmplt_ps(_mm_min_ps(_mm_min_ps(u, v), w), zero);
-        let high = _mm_cmpgt_ps(_mm_max_ps(_mm_max_ps(u, v), w), zero);
-        let z_min = _mm_min_ps(_mm_min_ps(a[2], b[2]), c[2]);
-        let z_max = _mm_max_ps(_mm_max_ps(a[2], b[2]), c[2]);
-        let range = _mm_and_ps(_mm_cmple_ps(z_min, _mm_set1_ps(t_best)), _mm_cmpgt_ps(z_max, ray.t_min));
-        let mask = _mm_movemask_ps(_mm_andnot_ps(_mm_and_ps(low, high), range)) as u32;
+        let zero = _mm256_setzero_ps();
+        let low = _mm256_cmp_ps::<_CMP_LT_OQ>(_mm256_min_ps(_mm256_min_ps(u, v), w), zero);
+        let high = _mm256_cmp_ps::<_CMP_GT_OQ>(_mm256_max_ps(_mm256_max_ps(u, v), w), zero);
+        let z_min = _mm256_min_ps(_mm256_min_ps(a[2], b[2]), c[2]);
+        let z_max = _mm256_max_ps(_mm256_max_ps(a[2], b[2]), c[2]);
+        let range = _mm256_and_ps(
+            _mm256_cmp_ps::<_CMP_LE_OQ>(z_min, _mm256_set1_ps(t_best)),
+            _mm256_cmp_ps::<_CMP_GT_OQ>(z_max, ray.t_min),
+        );
+        let mask = _mm256_movemask_ps(_mm256_andnot_ps(_mm256_and_ps(low, high), range)) as u32;
         if mask != 0 {
             let rows = [a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]];
             for (to, value) in sheared.iter_mut().zip(rows) {
-                _mm_storeu_ps(to.as_mut_ptr(), value);
+                _mm256_storeu_ps(to.as_mut_ptr(), value);
             }
         }
         mask

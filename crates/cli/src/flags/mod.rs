@@ -1,0 +1,41 @@
+//! What can be said on the command line: one file per group of flags, each with its help.
+
+pub(crate) mod camera;
+pub(crate) mod compare;
+pub(crate) mod light;
+pub(crate) mod output;
+pub(crate) mod render;
+pub(crate) mod replay;
+pub(crate) mod run;
+pub(crate) mod sampling;
+pub(crate) mod values;
+
+use clap::{Parser, Subcommand};
+
+/// A physically based renderer: opens glTF 2.0 scenes and traces the light through them.
+#[derive(Debug, Parser)]
+#[command(name = "lumbre", version, arg_required_else_help = true)]
+#[command(max_term_width = 110, after_help = EXAMPLES)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  lumbre render scene.glb -o picture.png
+  lumbre render scene.gltf -o picture.exr --spp 256 --sky gradient --sun 50,120
+  lumbre compare reference.exr picture.exr
+
+`lumbre COMMAND --help` says more.";
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to a picture.
+    #[command(after_help = render::EXAMPLES)]
+    Render(Box<render::RenderArgs>),
+    /// Measure how much a picture differs from a reference.
+    #[command(after_help = compare::EXAMPLES)]
+    Compare(compare::CompareArgs),
+}

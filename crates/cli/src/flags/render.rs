@@ -1,0 +1,51 @@
+//! All flags of `lumbre render`.
+
+use super::camera::CameraArgs;
+use super::light::LightArgs;
+use super::output::OutputArgs;
+use super::replay::ReplayArgs;
+use super::run::RunArgs;
+use super::sampling::SamplingArgs;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Shown below the flags.
+pub(crate) const EXAMPLES: &str = "\
+Examples:
+  lumbre render scene.glb -o picture.png
+      64 samples a pixel, with the scene's own camera and lights
+  lumbre render scene.glb -o picture.png -o picture.exr --size 1920x1080 --spp 512
+      a PNG to look at, and an EXR with linear radiance, albedo, normal, position, depth and error
+  lumbre render scene.glb -o sunny.png --sky gradient --sun 55,130 --exposure -1
+      a clear day, one stop darker
+  lumbre render scene.glb -o lit.png --env studio.hdr --env-rotate 90
+      lit by a photograph
+  lumbre render scene.glb -o view.png --look-from -3,1.6,4 --look-at 0,1,0 --fov 35
+      from elsewhere
+  lumbre render scene.glb --pixel 310,204 --sample 7
+      one path, vertex by vertex, instead of a picture
+
+Exit codes:
+  0 done, 2 wrong usage, 65 bad data in a file, 66 a file cannot be opened, 70 a bug,
+  71 too little memory, 74 cannot write, 75 interrupted with the picture so far written,
+  130 interrupted with nothing written";
+
+/// Flags of `lumbre render`.
+#[derive(Args, Debug)]
+pub(crate) struct RenderArgs {
+    /// Scene to open: glTF 2.0 (.gltf, .glb).
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArgs,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+    #[command(flatten)]
+    pub(crate) light: LightArgs,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+    #[command(flatten)]
+    pub(crate) replay: ReplayArgs,
+}

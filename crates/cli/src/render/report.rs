@@ -1,0 +1,72 @@
+//! What a finished film has to say: samples that were no numbers, and sums that ran out of range.
+
+use crate::console;
+use lumbre::core::Film;
+use std::env;
+use std::ffi::OsString;
+
+/// Most samples that are named.
+const NAMED: usize = 3;
+
+/// Reports on a film; returns how many sums ran out of range.
+pub(super) fn film(film: &Film) -> u64 {
+    let count = film.non_finite_count();
+    if count > 0 {
+        console::warning(format_args!(
+            "{count} samples were not finite and count as black; to see how one comes about:"
+        ));
+        let base = replay_base(env::args_os().collect());
+        for n in film.non_finite().iter().take(NAMED) {
+            let [row, column] = n.row_column;
+            console::note(format_args!("  {base} --pixel {column},{row} --sample {}", n.sample));
+        }
+    }
+    let saturated: u64 = film.pixels().iter().map(|p| u64::from(p.saturated())).sum();
+    if saturated > 0 {
+        let pixels = film.pixels().iter().filter(|p| p.saturated() > 0).count();
+        console::warning(format_args!(
+            "{pixels} pixels are brighter than the film can hold: {saturated} sums stopped at their limit"
+        ));
+    }
+    saturated
+}
+
+/// The command line without its outputs, quoted for a shell.
+fn replay_base(args: Vec<OsString>) -> String {
+    let mut words = Vec::new();
+    let mut args = args.into_iter().map(|a| a.to_string_lossy().into_owned());
+    while let Some(arg) = args.next() {
+        if arg == "-o" || arg == "--output" {
+            args.next();
+        } else if !(arg.starts_with("--output=") || arg.starts_with("-o")) {
+            words.push(quoted(&arg));
+        }
+    }
+    words.join(" ")
+}
+
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.into()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_replay_command_is_the_same_but_for_outputs() {
+        let line = |words: &[&str]| replay_base(words.iter().map(OsString::from).collect());
+        let words =
+            ["lumbre", "render", "my scene.glb", "-o", "a.png", "-ob.exr", "--output=c.png", "--seed", "3"];
+        assert_eq!(line(&words), "lumbre render 'my scene.glb' --seed 3");
+        assert_eq!(
+            line(&["l", "render", "it's.glb", "--sky", "#ff0000"]),
+            r"l render 'it'\''s.glb' --sky '#ff0000'"
+        );
+    }
+}

@@ -1,0 +1,123 @@
+//! Opens what is to be rendered: the scene, the light from far away, the camera and the size of the picture.
+
+use crate::console;
+use crate::exit::Failure;
+use crate::flags::light::LightArgs;
+use crate::flags::render::RenderArgs;
+use crate::flags::values::{MAX_SIDE, Size, Sky, SunFlag};
+use lumbre::core::{Camera, Rgb};
+use lumbre::io::Limits;
+use lumbre::scene::{Background, CompiledScene, Environment, Sun};
+use lumbre::{CameraOptions, LoadOptions};
+use std::time::Instant;
+
+/// A scene that is ready to be built for a device.
+pub(super) struct Opened {
+    pub(super) compiled: CompiledScene,
+    pub(super) camera: Camera,
+    pub(super) size: [u32; 2],
+    pub(super) load_seconds: f64,
+}
+
+/// Loads, lights and compiles the scene, and finds the camera.
+pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened, Failure> {
+    let start = Instant::now();
+    let mut loaded = lumbre::load_scene(&args.scene, &LoadOptions::default())?;
+    loaded.warnings.iter().for_each(console::warning);
+    // Before the costly part: is the camera there?
+    let aspect = lumbre::authored_aspect(&loaded.scene, &options.choice).map_err(Failure::usage)?;
+    set_environment(&args.light, &mut loaded.scene.environment)?;
+    if !lumbre::has_light(&loaded.scene) {
+        if args.light.sky.is_none() && args.light.env.is_none() && args.light.sun.is_none() {
+            loaded.scene.environment.background = Background::Gradient;
+            console::note("light: nothing in the scene gives any; gradient sky added (--sky off: none)");
+        } else {
+            console::warning("nothing gives light: the picture will be black");
+        }
+    }
+    let compiled = lumbre::compile(&loaded.scene)?;
+    compiled.notes.iter().for_each(console::warning);
+    let size = match args.output.size {
+        Some(Size(size)) => size,
+        None => default_size(aspect),
+    };
+    let shape = size[0] as f32 / size[1] as f32;
+    let found =
+        lumbre::find_camera(&loaded.scene, &compiled.scene, options, shape).map_err(Failure::usage)?;
+    if found.framed {
+        console::note("camera: the scene has none; the whole of it is put in view");
+    }
+    let load_seconds = start.elapsed().as_secs_f64();
+    Ok(Opened { compiled: compiled.scene, camera: found.camera, size, load_seconds })
+}
+
+/// Rows of a picture for which no size was asked.
+const ROWS: u32 = 720;
+
+/// The shape that the camera was framed for, or 16:9.
+fn default_size(aspect: Option<f32>) -> [u32; 2] {
+    let Some(aspect) = aspect else { return [ROWS * 16 / 9, ROWS] };
+    // A mad shape still makes a picture that can be held.
+    let width = ((ROWS as f32 * aspect).round() as u32).clamp(1, MAX_SIDE);
+    console::note(format_args!("size: {width}x{ROWS}, the shape that the camera was framed for"));
+    [width, ROWS]
+}
+
+/// Puts the light of the flags in the place of the scene's own.
+fn set_environment(args: &LightArgs, environment: &mut Environment) -> Result<(), Failure> {
+    if let Some(sky) = args.sky {
+        environment.background = match sky {
+            Sky::Color(c) => Background::Constant(c),
+            Sky::Gradient => Background::Gradient,
+            Sky::Off => Background::Black,
+        };
+        environment.strength = 1.0;
+    }
+    if let Some(path) = &args.env {
+        let loaded = lumbre::io::read_environment(path, &Limits::default())?;
+        for warning in &loaded.warnings {
+            console::warning(format_args!("{}: {warning}", path.display()));
+        }
+        environment.background = Background::Map(loaded.map);
+        environment.rotation = args.env_rotate.to_radians();
+        environment.strength = args.env_strength;
+    }
+    if let Some(flag) = args.sun {
+        environment.sun = Some(sun(flag));
+    }
+    Ok(())
+}
+
+/// Colour of the sun's light: a little warmer than the white of the picture (D65), as through some 30 degrees of air; ours.
+const SUNLIGHT: Rgb = Rgb::new(1.0, 0.93, 0.82);
+
+fn sun(flag: SunFlag) -> Sun {
+    Sun {
+        elevation: flag.elevation_deg.to_radians(),
+        // A whole turn is nothing, exactly.
+        azimuth: (flag.azimuth_deg % 360.0).to_radians(),
+        irradiance: SUNLIGHT * (flag.strength / SUNLIGHT.luminance()),
+        angular_radius: Sun::ANGULAR_RADIUS,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_camera_shapes_the_picture() {
+        assert_eq!(default_size(None), [1280, 720]);
+        assert_eq!(default_size(Some(4.0 / 3.0)), [960, 720]);
+        assert_eq!(default_size(Some(1e-9)), [1, 720]);
+        assert_eq!(default_size(Some(1e9)), [MAX_SIDE, 720]);
+    }
+
+    #[test]
+    fn the_strength_of_the_sun_is_its_illuminance() {
+        let s = sun(SunFlag { elevation_deg: 90.0, azimuth_deg: 360.0, strength: 20.0 });
+        assert!((s.irradiance.luminance() - 20.0).abs() < 1e-4);
+        assert_eq!(s.azimuth, 0.0);
+        assert!((s.elevation - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
+    }
+}

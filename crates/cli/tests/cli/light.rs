@@ -1,0 +1,90 @@
+//! Flags on light from far away.
+
+use crate::common::*;
+use lumbre::core::Rgb;
+use lumbre::io::{ExrImage, ExrLayer, write_exr};
+use std::f32::consts::PI;
+use std::path::Path;
+
+fn floor(dir: &Path) -> String {
+    scene(dir, &[(square(0.0, 4.0), GREY)])
+}
+
+const UP: &str = "--look-from 0,1,0 --look-at 0,9,0 --fov 20 --size 4x4 --spp 4";
+const DOWN: &str = "--look-from 0,1,0 --look-at 0,0,0 --fov 20 --size 4x4 --spp 16";
+
+#[test]
+fn the_sky_is_a_colour_a_gradient_or_nothing() {
+    let dir = folder();
+    let scene = floor(dir.path());
+    let of = |sky: &str| mean(&picture(dir.path(), &format!("{scene} {UP} --sky {sky}")));
+    assert_eq!(of("0.5,1,2"), Rgb::new(0.5, 1.0, 2.0));
+    let orange = of("#ff8000");
+    assert!(orange.r == 1.0 && (orange.g - 0.2159).abs() < 1e-3 && orange.b == 0.0);
+    let zenith = of("gradient");
+    assert!(zenith.b > 2.0 * zenith.r && zenith.r > 0.1, "blue overhead");
+    assert_eq!(of("off"), Rgb::BLACK);
+    lumbre(&format!("render {scene} -o a.png --sky -1,0,0")).exits(2).says("none negative");
+}
+
+#[test]
+fn a_scene_without_light_gets_the_gradient_sky_and_is_told() {
+    let dir = folder();
+    let scene = floor(dir.path());
+    let said = "gradient sky added";
+    let run = |light: &str| exr(dir.path(), &format!("{scene} {UP} {light}")).0;
+    run("").says(said);
+    run("--sky off").does_not_say(said).says("the picture will be black");
+    run("--sky 1,1,1").does_not_say(said);
+    run("--sun 40,10").does_not_say(said);
+    exr(dir.path(), &format!("{SMOOTH} --size 4x4 --spp 1")).0.does_not_say(said);
+}
+
+#[test]
+fn the_sun_has_a_place_a_strength_and_a_colour() {
+    let dir = folder();
+    let scene = floor(dir.path());
+    let of = |sun: &str| mean(&picture(dir.path(), &format!("{scene} {DOWN} --sun {sun}")));
+    let close = |c: Rgb, lux: f32| (c.luminance() / (lux * 0.5 / PI) - 1.0).abs() < 0.01;
+    let zenith = of("90,0");
+    assert!(close(zenith, 15.0), "{zenith:?}");
+    assert!(zenith.r > 1.1 * zenith.b, "slightly warm");
+    assert!(close(of("90,0,30"), 30.0) && close(of("30,70,30"), 15.0));
+    assert!(of("-10,0").luminance() == 0.0, "below the horizon");
+    for (sun, towards) in
+        [("30,90", [0.866, 0.5, 0.0]), ("30,-90", [-0.866, 0.5, 0.0]), ("0,0", [0.0, 0.0, -1.0])]
+    {
+        let run = lumbre(&format!("render {scene} {DOWN} --sun {sun} --pixel 1,1")).exits(0);
+        let found = triple(run.line("light"), "towards");
+        assert!(found.iter().zip(towards).all(|(a, b)| (a - b).abs() < 0.01), "{sun}: {found:?}");
+    }
+    lumbre(&format!("render {scene} -o a.png --sun 91,0")).exits(2).says("between -90 and 90");
+}
+
+#[test]
+fn a_map_surrounds_the_scene_and_turns() {
+    let dir = folder();
+    let scene = floor(dir.path());
+    // Red around -z, blue elsewhere.
+    let red = |x: usize| (6..10).contains(&x);
+    let pixels =
+        (0..16 * 8).map(|i| if red(i % 16) { Rgb::new(4.0, 0.0, 0.0) } else { Rgb::new(0.0, 0.0, 1.0) });
+    let layers = vec![ExrLayer::rgb("", pixels, false)];
+    let env = dir.path().join("env.exr");
+    write_exr(&env, ExrImage { width: 16, height: 8, layers, metadata: vec![] }).unwrap();
+    let of = |at: &str, more: &str| {
+        let view = format!("--look-from 0,1,0 --look-at {at} --fov 10 --size 2x2 --spp 1");
+        mean(&picture(dir.path(), &format!("{scene} {view} --env {} {more}", env.display())))
+    };
+    assert_eq!(of("0,1,-1", ""), Rgb::new(4.0, 0.0, 0.0), "its centre lies at -z");
+    assert_eq!(of("1,1,0", ""), Rgb::new(0.0, 0.0, 1.0));
+    assert_eq!(of("1,1,0", "--env-rotate 90"), Rgb::new(4.0, 0.0, 0.0));
+    assert_eq!(of("-1,1,0", "--env-rotate -90"), Rgb::new(4.0, 0.0, 0.0));
+    assert_eq!(of("1,1,0", "--env-strength 0.5"), Rgb::new(0.0, 0.0, 0.5));
+    lumbre(&format!("render {scene} -o a.png --env none.hdr")).exits(66).says("none.hdr: cannot open");
+    lumbre(&format!("render {scene} -o a.png --env {} --sky gradient", env.display())).exits(2);
+    lumbre(&format!("render {scene} -o a.png --env-rotate 5")).exits(2).says("--env <FILE>");
+    lumbre(&format!("render {scene} -o a.png --env {} --env-strength -1", env.display()))
+        .exits(2)
+        .says("negative");
+}

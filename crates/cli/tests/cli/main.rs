@@ -1,0 +1,13 @@
+//! The command line as its users meet it: the built program is run, and its files, words and exit codes are looked at. Each
+//! flag has a test of what it does or of what it refuses.
+
+mod camera;
+mod common;
+mod compare;
+mod interrupt;
+mod light;
+mod picture;
+mod replay;
+mod running;
+mod sampling;
+mod usage;

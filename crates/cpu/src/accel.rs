@@ -1,0 +1,192 @@
+//! The scene as rays see it: acceleration structures, and hits in terms of the compiled scene.
+//!
+//! Meshes that stand in the world once are merged into one structure in world space (one for each kind of any-hit work, so that
+//! the leaves of a tree do not make its trunk ask for alpha), so that a scene of a hundred parts does
+//! not send each ray through a hundred trees with a transform each (what Embree's users do by putting all shapes into one scene).
+//! Meshes used more than once keep one structure each, shared by their instances.
+
+use crate::bvh::{Blas, Hit, InstanceDesc, SimdLevel, Tlas};
+use glam::{Affine3A, Vec3};
+use lumbre_core::Ray;
+use lumbre_scene::CompiledScene;
+use lumbre_scene::compiled::geometry::{InstanceRecord, MeshRecord};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Acceleration structures of a scene.
+#[derive(Debug)]
+pub struct Accel {
+    tlas: Tlas,
+    /// The same, asked about every hit where back faces are invisible to the camera; `None` if there are none.
+    camera_tlas: Option<Tlas>,
+    /// Where the hits of each instance of `tlas` lie in the scene.
+    origins: Vec<Origin>,
+}
+
+/// Where the triangles of one instance of the acceleration structure come from.
+#[derive(Debug)]
+enum Origin {
+    /// An instance of the scene.
+    Instance(u32),
+    /// Many: instance and triangle of each.
+    Merged(Vec<[u32; 2]>),
+}
+
+impl Origin {
+    #[inline]
+    fn restore(&self, hit: &Hit) -> Hit {
+        match self {
+            Origin::Instance(instance) => Hit { instance: *instance, ..*hit },
+            Origin::Merged(triangles) => {
+                let [instance, triangle] = triangles[hit.triangle as usize];
+                Hit { instance, triangle, ..*hit }
+            }
+        }
+    }
+}
+
+/// What any-hit work an instance needs: merged geometry must agree on it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Class {
+    opaque: bool,
+    culls: bool,
+}
+
+impl Class {
+    const ALL: [Class; 4] = [
+        Class { opaque: true, culls: false },
+        Class { opaque: true, culls: true },
+        Class { opaque: false, culls: false },
+        Class { opaque: false, culls: true },
+    ];
+
+    fn of_mesh(mesh: &MeshRecord) -> Self {
+        Class { opaque: mesh.opaque == 1, culls: mesh.culls == 1 }
+    }
+
+    fn of_triangle(scene: &CompiledScene, triangle: usize) -> Self {
+        let material = &scene.materials[scene.triangle_materials[triangle] as usize];
+        Class { opaque: material.is_opaque(), culls: material.culls_back_faces() }
+    }
+}
+
+impl Accel {
+    /// Builds the structures.
+    pub fn new(scene: &CompiledScene) -> Self {
+        let mut uses = vec![0u32; scene.meshes.len()];
+        scene.instances.iter().for_each(|i| uses[i.mesh as usize] += 1);
+        let merges =
+            |i: &InstanceRecord| uses[i.mesh as usize] == 1 && i.transform_count == 1 && i.mask == u32::MAX;
+
+        let (mut blas, mut instances, mut classes, mut origins) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let once: Vec<u32> =
+            (0..scene.instances.len() as u32).filter(|&i| merges(&scene.instances[i as usize])).collect();
+        for class in Class::ALL {
+            let (merged, triangles) = merge(scene, &once, class);
+            if !triangles.is_empty() {
+                instances.push(InstanceDesc::new(blas.len() as u32, Affine3A::IDENTITY));
+                classes.push(class);
+                origins.push(Origin::Merged(triangles));
+                blas.push(Arc::new(merged));
+            }
+        }
+
+        let first_shared = blas.len() as u32;
+        let shared: Vec<u32> = (0..scene.meshes.len() as u32).filter(|&m| uses[m as usize] > 1).collect();
+        blas.par_extend(shared.par_iter().map(|&m| Arc::new(build_mesh(scene, &scene.meshes[m as usize]))));
+        for (id, i) in scene.instances.iter().enumerate().filter(|(_, i)| !merges(i)) {
+            let place =
+                shared.binary_search(&i.mesh).expect("a mesh that is not merged is used more than once");
+            let object_to_world = scene.transforms[i.first_transform as usize].object_to_world();
+            let desc = InstanceDesc::new(first_shared + place as u32, object_to_world);
+            instances.push(InstanceDesc { mask: i.mask, ..desc });
+            classes.push(Class::of_mesh(&scene.meshes[i.mesh as usize]));
+            origins.push(Origin::Instance(id as u32));
+        }
+
+        let tlas = |opaque: fn(&Class) -> bool| {
+            let with = |(d, c): (&InstanceDesc, &Class)| InstanceDesc { opaque: opaque(c), ..*d };
+            Tlas::build(&instances.iter().zip(&classes).map(with).collect::<Vec<_>>(), blas.clone())
+        };
+        let culls = classes.iter().any(|c| c.culls);
+        Accel {
+            tlas: tlas(|c| c.opaque),
+            camera_tlas: culls.then(|| tlas(|c| c.opaque && !c.culls)),
+            origins,
+        }
+    }
+
+    /// Traverses with `level` from now on; hits stay the same.
+    ///
+    /// # Panics
+    /// If the processor does not support it.
+    pub fn with_level(self, level: SimdLevel) -> Self {
+        Accel {
+            tlas: self.tlas.with_level(level),
+            camera_tlas: self.camera_tlas.map(|t| t.with_level(level)),
+            ..self
+        }
+    }
+
+    /// The SIMD level in use.
+    pub fn level(&self) -> SimdLevel {
+        self.tlas.level()
+    }
+
+    /// The closest hit that `filter` accepts; it is asked about surfaces that are not opaque.
+    #[inline]
+    pub fn closest_hit(&self, ray: &Ray, filter: impl FnMut(&Hit) -> bool) -> Option<Hit> {
+        self.closest(&self.tlas, ray, filter)
+    }
+
+    /// The same for camera rays: `filter` is also asked about surfaces whose back faces may be invisible.
+    #[inline]
+    pub fn closest_hit_camera(&self, ray: &Ray, filter: impl FnMut(&Hit) -> bool) -> Option<Hit> {
+        self.closest(self.camera_tlas.as_ref().unwrap_or(&self.tlas), ray, filter)
+    }
+
+    #[inline]
+    fn closest(&self, tlas: &Tlas, ray: &Ray, mut filter: impl FnMut(&Hit) -> bool) -> Option<Hit> {
+        let restore = |hit: &Hit| self.origins[hit.instance as usize].restore(hit);
+        tlas.closest_hit(ray, |hit| filter(&restore(hit))).map(|hit| restore(&hit))
+    }
+
+    /// Whether there is any hit that `filter` accepts; it is asked about surfaces that are not opaque.
+    #[inline]
+    pub fn any_hit(&self, ray: &Ray, mut filter: impl FnMut(&Hit) -> bool) -> bool {
+        self.tlas.any_hit(ray, |hit| filter(&self.origins[hit.instance as usize].restore(hit)))
+    }
+}
+
+fn build_mesh(scene: &CompiledScene, m: &MeshRecord) -> Blas {
+    let (v, t) = (m.first_vertex as usize, m.first_triangle as usize);
+    let positions = &scene.positions[v..v + m.vertex_count as usize];
+    let triangles = &scene.triangles[t..t + m.triangle_count as usize];
+    let local: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|i| i - m.first_vertex)).collect();
+    Blas::build(bytemuck::cast_slice(positions), &local)
+}
+
+/// One structure in world space over the triangles of a class of several instances, and where they come from.
+fn merge(scene: &CompiledScene, members: &[u32], class: Class) -> (Blas, Vec<[u32; 2]>) {
+    let (mut positions, mut triangles, mut from) = (Vec::<Vec3>::new(), Vec::new(), Vec::new());
+    for &id in members {
+        let instance = &scene.instances[id as usize];
+        let m = &scene.meshes[instance.mesh as usize];
+        let to_world = scene.transforms[instance.first_transform as usize].object_to_world();
+        let (v, t) = (m.first_vertex as usize, m.first_triangle as usize);
+        let first = positions.len() as u32;
+        let vertices = &scene.positions[v..v + m.vertex_count as usize];
+        positions.extend(vertices.iter().map(|p| to_world.transform_point3(Vec3::from_array(*p))));
+        let before = from.len();
+        let of_class = |&i: &u32| Class::of_triangle(scene, t + i as usize) == class;
+        for i in (0..m.triangle_count).filter(of_class) {
+            triangles.push(scene.triangles[t + i as usize].map(|v| v - m.first_vertex + first));
+            from.push([id, i]);
+        }
+        if from.len() == before {
+            positions.truncate(first as usize);
+        }
+    }
+    (Blas::build(&positions, &triangles), from)
+}
