@@ -17,8 +17,8 @@ use lumbre_testkit::measure::{self, Estimate, analytic_settings, film, grey, pin
 use lumbre_testkit::shapes::{add, cuboid, inside_out, rectangle, smooth_icosphere};
 
 const ON: RenderSettings = RenderSettings { light_sampling: true, ..BASE };
-const OFF: RenderSettings = RenderSettings { light_sampling: false, ..BASE };
-const ROULETTE: RenderSettings = RenderSettings { roulette: Some(1), ..ON };
+const OFF: RenderSettings = RenderSettings { light_sampling: false, seed: 2, ..BASE };
+const ROULETTE: RenderSettings = RenderSettings { roulette: Some(1), seed: 3, ..BASE };
 
 /// Independent samples, depth of 12, no roulette, glass as it is.
 const BASE: RenderSettings = RenderSettings {
@@ -64,8 +64,7 @@ fn assert_ways_agree(scene: &Scene, camera: Camera, spp: [u32; 2], what: &str) {
     let backend = prepare(scene);
     let on = mean(&backend, camera, ON, spp[0]);
     assert_same_mean(on, mean(&backend, camera, OFF, spp[1]), &format!("{what}, light sampling"));
-    let roulette = RenderSettings { seed: 2, ..ROULETTE };
-    assert_same_mean(on, mean(&backend, camera, roulette, spp[0]), &format!("{what}, roulette"));
+    assert_same_mean(on, mean(&backend, camera, ROULETTE, spp[0]), &format!("{what}, roulette"));
 }
 
 fn floor(scene: &mut Scene, half: f32) {
@@ -117,7 +116,7 @@ fn under_a_pane() -> Scene {
 /// Shadow rays pass thin glass, and paths that pass it meet the lamp with the weight of the vertex before.
 #[test]
 fn thin_glass_before_a_lamp() {
-    assert_ways_agree(&under_a_pane(), look_down(), [128, 512], "thin glass before a lamp");
+    assert_ways_agree(&under_a_pane(), look_down(), [256, 4096], "thin glass before a lamp");
 }
 
 /// Thin glass is exact, so what shadow rays do at solids does not change one bit of it.
@@ -126,7 +125,7 @@ fn thin_glass_is_the_same_in_every_mode() {
     let backend = prepare(&under_a_pane());
     let [auto, physical, straight] = MODES.map(|m| film(&backend, look_down(), with_shadows(m), 24, 8));
     assert!(auto == physical && physical == straight);
-    assert!(measure::mean(&auto).mean > 0.1);
+    assert!(measure::mean(&auto).mean > 0.03);
 }
 
 const MODES: [TransmissiveShadows; 3] =
@@ -146,7 +145,7 @@ fn partial_coverage_before_lamps() {
     lamp(&mut scene, Vec3::new(1.0, 2.2, 0.3), 0.6, blend(Material::emitter(grey(5.0), true), 0.35));
     let veil = rectangle(Vec3::new(0.0, 1.6, 0.0), Vec3::X * 1.1, Vec3::Z * 1.1);
     add(&mut scene, veil, blend(Material::diffuse(grey(0.6)), 0.4));
-    assert_ways_agree(&scene, look_down(), [128, 512], "partial coverage");
+    assert_ways_agree(&scene, look_down(), [1024, 4096], "partial coverage");
 }
 
 /// A lamp with a picture on it: dark, bright and black texels.
@@ -172,7 +171,7 @@ fn textured_lamp() {
         cuboid(Vec3::new(-0.4, 0.0, -0.4), Vec3::new(0.4, 0.8, 0.4)),
         Material::diffuse(grey(0.8)),
     );
-    assert_ways_agree(&scene, look_down(), [128, 512], "textured lamp");
+    assert_ways_agree(&scene, look_down(), [1024, 2048], "textured lamp");
 }
 
 fn spot(scene: &mut Scene, position: Vec3, intensity: f32) {
@@ -203,7 +202,7 @@ fn spot_light_has_its_falloff() {
         let expected = 0.7 * f64::from(INV_PI) * 50.0 * ramp * ramp * f64::from(cos).powi(3) / 4.0;
         let at = Vec3::new(2.0 * sin / cos, 0.0, 0.0);
         let camera = pinhole(at + Vec3::new(0.3, 1.0, 0.5), at, 1e-4);
-        radiance(&backend, camera, analytic_settings()).assert_is(expected, &format!("spot at {angle}"));
+        radiance(&backend, camera, analytic_settings()).assert_is(expected, 0.0, &format!("spot at {angle}"));
     }
     let outside = pinhole(Vec3::new(2.5, 1.0, 0.0), Vec3::new(2.0, 0.0, 0.0), 1e-4);
     assert_eq!(radiance(&backend, outside, analytic_settings()).mean, 0.0);
@@ -217,10 +216,9 @@ fn spot_light_in_a_room() {
     add(&mut scene, inside_out(cuboid(Vec3::new(-2.0, 0.0, -2.0), Vec3::new(2.0, 3.0, 6.0))), walls);
     spot(&mut scene, Vec3::new(0.3, 2.8, 0.0), 30.0);
     let backend = prepare(&scene);
-    let settings = RenderSettings { seed: 2, ..ROULETTE };
     assert_same_mean(
         mean(&backend, look_down(), ON, 128),
-        mean(&backend, look_down(), settings, 256),
+        mean(&backend, look_down(), ROULETTE, 256),
         "spot in a room, roulette",
     );
 }
@@ -239,6 +237,11 @@ fn small_lamp(scene: &mut Scene) {
     lamp(scene, Vec3::Y * 4.0, 0.1, Material::emitter(grey(100.0), false));
 }
 
+/// A larger one, which paths find more often.
+fn large_lamp(scene: &mut Scene) {
+    lamp(scene, Vec3::Y * 4.0, 0.5, Material::emitter(grey(4.0), false));
+}
+
 /// What the floor returns of light that arrives along the axis of the sphere, times `passes` surfaces met at right angles.
 fn through(irradiance: f64, passes: i32) -> f64 {
     let transmitted = 1.0 - f64::from(fresnel::dielectric(1.0, 1.5));
@@ -248,12 +251,12 @@ fn through(irradiance: f64, passes: i32) -> f64 {
 /// Towards a lamp that can be hit, `physical` and `auto` are one, and make the bright spot by paths alone.
 #[test]
 fn caustics_of_lamps_come_from_paths() {
-    let (backend, camera) = under_a_sphere(small_lamp);
+    let (backend, camera) = under_a_sphere(large_lamp);
     let [auto, physical] = [MODES[0], MODES[1]].map(|m| film(&backend, camera, with_shadows(m), 24, 64));
     assert!(auto == physical);
-    let on = mean(&backend, camera, ON, 512);
-    assert_same_mean(on, mean(&backend, camera, OFF, 512), "caustic of a lamp");
-    let without_glass = through(100.0 * 0.04 / 16.0, 0);
+    let on = mean(&backend, camera, ON, 2048);
+    assert_same_mean(on, mean(&backend, camera, OFF, 2048), "caustic of a lamp");
+    let without_glass = through(4.0 / 16.0, 0);
     assert!(on.mean > 2.0 * without_glass, "the sphere gathers light: {on:?} against {without_glass}");
 }
 
@@ -280,36 +283,49 @@ fn point_lights_shine_straight_through_or_not_at_all() {
     assert_eq!(measure::mean(&physical).mean, 0.0);
 }
 
-/// Under a wide slab of glass the direction of light is kept in the end, so all modes and paths alone find the same: of a sun, of
-/// a sky, and of a small patch of floor so that nothing comes back.
+/// Mean of (1 - F) / (1 + F), what a slab lets through in all orders, over a sun, weighted with the cosine on a floor.
+fn slab_transmittance(sun: &Sun) -> f64 {
+    const STEPS: usize = 64;
+    let (sin_e, cos_e) = sin_cos(sun.elevation);
+    let cap = 1.0 - sin_cos(sun.angular_radius).1;
+    let (mut passed, mut total) = (0.0, 0.0);
+    for i in 0..STEPS * STEPS {
+        let [u, v] = [i % STEPS, i / STEPS].map(|k| (k as f32 + 0.5) / STEPS as f32);
+        let c = 1.0 - u * cap;
+        let cos = c * sin_e + (1.0 - c * c).sqrt() * sin_cos(2.0 * PI * v).1 * cos_e;
+        let f = f64::from(fresnel::dielectric(cos, 1.5));
+        passed += f64::from(cos) * (1.0 - f) / (1.0 + f);
+        total += f64::from(cos);
+    }
+    passed / total
+}
+
+/// Under a wide slab of glass light keeps its direction in the end, so every mode, and paths alone, find what the slab lets through
+/// of a wide sun, and all of an even sky, since what it reflects is the same sky. The floor is a small patch, so that nothing
+/// comes back to it.
 #[test]
 fn slabs_let_through_what_they_should() {
-    let environment = Environment {
-        background: Background::Constant(grey(0.5)),
-        sun: Some(Sun { elevation: 0.9, azimuth: 0.4, irradiance: grey(2.0), angular_radius: 0.2 }),
-        ..Environment::default()
-    };
+    let sun = Sun { elevation: 0.9, azimuth: 0.4, irradiance: grey(2.0), angular_radius: 0.2 };
+    let background = Background::Constant(grey(0.5));
+    let environment = Environment { background, sun: Some(sun), ..Environment::default() };
     let mut scene = Scene { environment, ..Scene::default() };
     floor(&mut scene, 0.01);
     let slab = cuboid(Vec3::new(-40.0, 0.5, -40.0), Vec3::new(40.0, 0.7, 40.0));
     add(&mut scene, slab, Material::glass(1.5, 0.0));
     let camera = pinhole(Vec3::new(0.4, 0.25, 0.1), Vec3::ZERO, 1e-3);
     let backend = prepare(&scene);
-    // All orders: T = (1 - F) / (1 + F) of the sun; of the sky, what the slab reflects is the same sky.
-    let (mut sun, sky) = (2.0 * f64::from(sin_cos(0.9).0), f64::from(PI) * 0.5);
-    let f = f64::from(fresnel::dielectric(sin_cos(0.9).0, 1.5));
-    sun *= (1.0 - f) / (1.0 + f);
-    let expected = 0.7 * f64::from(INV_PI) * (sun + sky);
-    for mode in MODES {
+    let irradiance = 2.0 * f64::from(sin_cos(0.9).0) * slab_transmittance(&sun) + 0.5 * f64::from(PI);
+    let expected = 0.7 * f64::from(INV_PI) * irradiance;
+    for (i, mode) in MODES.into_iter().enumerate() {
         for light_sampling in [true, false] {
-            let settings = RenderSettings { light_sampling, max_depth: Some(40), ..with_shadows(mode) };
-            let seen = mean(&backend, camera, settings, 512);
-            println!("slab, {mode:?}, light sampling {light_sampling}: {seen:?} {expected}");
-            // The sun is wide, so its mean transmittance is a little lower than that of its centre.
-            assert!(
-                (seen.mean / expected - 1.0).abs() < 0.01,
-                "{mode:?} {light_sampling}: {seen:?} {expected}"
-            );
+            let seed = 2 * i as u32 + u32::from(light_sampling);
+            let settings = RenderSettings { light_sampling, max_depth: Some(40), seed, ..with_shadows(mode) };
+            let seen = mean(&backend, camera, settings, 1024);
+            let what =
+                format!("slab, {mode:?}, light sampling {light_sampling}: {seen:?}, expected {expected}");
+            println!("{what}");
+            assert!(seen.z(expected, 0.0) < 4.5, "{what}");
+            assert!(seen.z(1.03 * expected, 0.0) > 4.5 && seen.z(0.97 * expected, 0.0) > 4.5, "{what}");
         }
     }
 }
