@@ -152,7 +152,8 @@ fn partial_coverage_before_lamps() {
 #[test]
 fn textured_lamp() {
     let mut scene = Scene::default();
-    let texel = |i: u32| if i % 3 == 0 { [0; 3] } else { [0, 1, 2].map(|c| (255.0 * unit(i, c)) as u8) };
+    let texel =
+        |i: u32| if i.is_multiple_of(3) { [0; 3] } else { [0, 1, 2].map(|c| (255.0 * unit(i, c)) as u8) };
     let rgba8 = (0..64)
         .flat_map(|i| {
             let [r, g, b] = texel(i);
