@@ -1,6 +1,7 @@
 //! The scene as rays see it: acceleration structures, and hits in terms of the compiled scene.
 //!
-//! Meshes that stand in the world once are merged into one structure in world space, so that a scene of a hundred parts does
+//! Meshes that stand in the world once are merged into one structure in world space (one for each kind of any-hit work, so that
+//! the leaves of a tree do not make its trunk ask for alpha), so that a scene of a hundred parts does
 //! not send each ray through a hundred trees with a transform each (what Embree's users do by putting all shapes into one scene).
 //! Meshes used more than once keep one structure each, shared by their instances.
 
@@ -59,8 +60,13 @@ impl Class {
         Class { opaque: false, culls: true },
     ];
 
-    fn of(mesh: &MeshRecord) -> Self {
+    fn of_mesh(mesh: &MeshRecord) -> Self {
         Class { opaque: mesh.opaque == 1, culls: mesh.culls == 1 }
+    }
+
+    fn of_triangle(scene: &CompiledScene, triangle: usize) -> Self {
+        let material = &scene.materials[scene.triangle_materials[triangle] as usize];
+        Class { opaque: material.is_opaque(), culls: material.culls_back_faces() }
     }
 }
 
@@ -74,15 +80,11 @@ impl Accel {
 
         let (mut blas, mut instances, mut classes, mut origins) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let once: Vec<u32> =
+            (0..scene.instances.len() as u32).filter(|&i| merges(&scene.instances[i as usize])).collect();
         for class in Class::ALL {
-            let members: Vec<u32> = (0..scene.instances.len() as u32)
-                .filter(|&i| {
-                    let instance = &scene.instances[i as usize];
-                    merges(instance) && Class::of(&scene.meshes[instance.mesh as usize]) == class
-                })
-                .collect();
-            if !members.is_empty() {
-                let (merged, triangles) = merge(scene, &members);
+            let (merged, triangles) = merge(scene, &once, class);
+            if !triangles.is_empty() {
                 instances.push(InstanceDesc::new(blas.len() as u32, Affine3A::IDENTITY));
                 classes.push(class);
                 origins.push(Origin::Merged(triangles));
@@ -99,7 +101,7 @@ impl Accel {
             let object_to_world = scene.transforms[i.first_transform as usize].object_to_world();
             let desc = InstanceDesc::new(first_shared + place as u32, object_to_world);
             instances.push(InstanceDesc { mask: i.mask, ..desc });
-            classes.push(Class::of(&scene.meshes[i.mesh as usize]));
+            classes.push(Class::of_mesh(&scene.meshes[i.mesh as usize]));
             origins.push(Origin::Instance(id as u32));
         }
 
@@ -165,8 +167,8 @@ fn build_mesh(scene: &CompiledScene, m: &MeshRecord) -> Blas {
     Blas::build(bytemuck::cast_slice(positions), &local)
 }
 
-/// One structure in world space over several instances, and where its triangles come from.
-fn merge(scene: &CompiledScene, members: &[u32]) -> (Blas, Vec<[u32; 2]>) {
+/// One structure in world space over the triangles of a class of several instances, and where they come from.
+fn merge(scene: &CompiledScene, members: &[u32], class: Class) -> (Blas, Vec<[u32; 2]>) {
     let (mut positions, mut triangles, mut from) = (Vec::<Vec3>::new(), Vec::new(), Vec::new());
     for &id in members {
         let instance = &scene.instances[id as usize];
@@ -176,9 +178,15 @@ fn merge(scene: &CompiledScene, members: &[u32]) -> (Blas, Vec<[u32; 2]>) {
         let first = positions.len() as u32;
         let vertices = &scene.positions[v..v + m.vertex_count as usize];
         positions.extend(vertices.iter().map(|p| to_world.transform_point3(Vec3::from_array(*p))));
-        let local = scene.triangles[t..t + m.triangle_count as usize].iter();
-        triangles.extend(local.map(|t| t.map(|i| i - m.first_vertex + first)));
-        from.extend((0..m.triangle_count).map(|t| [id, t]));
+        let before = from.len();
+        let of_class = |&i: &u32| Class::of_triangle(scene, t + i as usize) == class;
+        for i in (0..m.triangle_count).filter(of_class) {
+            triangles.push(scene.triangles[t + i as usize].map(|v| v - m.first_vertex + first));
+            from.push([id, i]);
+        }
+        if from.len() == before {
+            positions.truncate(first as usize);
+        }
     }
     (Blas::build(&positions, &triangles), from)
 }

@@ -4,7 +4,13 @@
 pub mod bsdf_rows;
 pub mod bsdf_tables;
 pub mod chi_square;
+pub mod convergence;
 pub mod furnace;
 pub mod measure;
+pub mod npy;
+pub mod plot;
+pub mod ready;
+pub mod references;
 pub mod shapes;
 pub mod square;
+pub mod z_test;

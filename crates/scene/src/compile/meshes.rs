@@ -63,7 +63,7 @@ fn add_mesh(
         // The default material stands behind the authored ones.
         let material = primitive.material.map_or(scene.materials.len(), |m| m.index());
         let record = &out.materials[material];
-        opaque &= !record.has_coverage() && record.transmission == 0.0;
+        opaque &= record.is_opaque();
         culls |= record.culls_back_faces();
         emissive |= record.has(flag::EMISSIVE);
         let normal_map = record.normal_texture;

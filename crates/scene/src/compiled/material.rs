@@ -109,6 +109,11 @@ impl MaterialRecord {
     pub fn has_coverage(&self) -> bool {
         self.has(flag::ALPHA_MASK | flag::ALPHA_BLEND)
     }
+    /// True when it stops every ray that meets it.
+    #[inline]
+    pub fn is_opaque(&self) -> bool {
+        !self.has_coverage() && self.transmission == 0.0
+    }
     /// True when camera rays do not see its back.
     #[inline]
     pub fn culls_back_faces(&self) -> bool {

@@ -1,17 +1,19 @@
 //! A picture is the same bits whatever the threads, the instructions, the run and the order of its parts.
 
-use crate::scenes::{Ready, cornell};
 use lumbre_core::film::Film;
 use lumbre_cpu::bvh::SimdLevel;
+use lumbre_testkit::ready::{Ready, asset, open};
 use std::ops::Range;
 
 const SPP: u32 = 8;
 
-fn render(view: &Ready, samples: Range<u32>) -> Film {
-    let mut film = Film::new(64, 48);
-    view.backend.render(&view.view, samples, &mut film, &());
-    assert_eq!(film.non_finite_count(), 0);
-    film
+/// Our own Cornell box: textures, glass, metal, an area light.
+fn cornell() -> Ready {
+    open(&asset("cornell.glb"), 4.0 / 3.0)
+}
+
+fn render(ready: &Ready, samples: Range<u32>) -> Film {
+    ready.film([64, 48], samples)
 }
 
 fn render_with_threads(view: &Ready, threads: usize) -> Film {

@@ -2,6 +2,7 @@
 //! way, the rate of convergence, and estimators that must agree. One program, since linking it takes longer than running it.
 
 mod bits;
+mod convergence;
 mod lens_and_filter;
 mod lights;
-mod scenes;
+mod references;
