@@ -11,7 +11,7 @@ pub struct Plot<'a> {
     pub title: &'a str,
     /// Name of the horizontal axis, which is in powers of two.
     pub x: &'a str,
-    /// Name of the vertical axis, which is in powers of ten.
+    /// Name of the vertical axis, which is in powers of ten and labelled in per cent.
     pub y: &'a str,
     /// Series with their colours; each is drawn with its fitted line.
     pub series: &'a [(Series, &'a str)],
@@ -20,7 +20,7 @@ pub struct Plot<'a> {
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 480.0;
 /// Corners of the frame: left, right, top, bottom.
-const LEFT: f64 = 84.0;
+const LEFT: f64 = 96.0;
 const RIGHT: f64 = 736.0;
 const TOP: f64 = 56.0;
 const BOTTOM: f64 = 412.0;
@@ -73,7 +73,7 @@ fn draw(out: &mut String, plot: &Plot, axes: &Axes) -> std::fmt::Result {
     writeln!(out, "<text x=\"{middle}\" y=\"456\" text-anchor=\"middle\">{}</text>", plot.x)?;
     writeln!(
         out,
-        "<text transform=\"translate(26 {centre}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        "<text transform=\"translate(22 {centre}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
         plot.y
     )?;
     for (series, color) in plot.series {
@@ -121,12 +121,13 @@ fn grid(out: &mut String, axes: &Axes) -> std::fmt::Result {
         writeln!(out, "<text x=\"{x:.1}\" y=\"430\" text-anchor=\"middle\">{}</text>", 1u64 << power)?;
     }
     for decade in decades {
-        // Superscripts by shifting: a minus sign and digits.
-        let (x, y) = (LEFT - 8.0, axes.y(10f64.powi(decade)) + 4.5);
-        let exponent = format!("{decade}").replace('-', "−");
+        let y = axes.y(10f64.powi(decade)) + 4.5;
+        let digits = usize::try_from(-2 - decade).unwrap_or(0);
+        let percent = 100.0 * 10f64.powi(decade);
         writeln!(
             out,
-            "<text x=\"{x}\" y=\"{y:.1}\" text-anchor=\"end\">10<tspan dy=\"-5\" font-size=\"10\">{exponent}</tspan></text>"
+            "<text x=\"{}\" y=\"{y:.1}\" text-anchor=\"end\">{percent:.digits$} %</text>",
+            LEFT - 8.0
         )?;
     }
     Ok(())
@@ -161,7 +162,7 @@ fn legend(out: &mut String, plot: &Plot) -> std::fmt::Result {
     let top = BOTTOM - 16.0 - height;
     writeln!(
         out,
-        "<rect x=\"{x}\" y=\"{top}\" width=\"262\" height=\"{height}\" rx=\"4\" fill=\"#fff\" stroke=\"#ccc\"/>"
+        "<rect x=\"{x}\" y=\"{top}\" width=\"300\" height=\"{height}\" rx=\"4\" fill=\"#fff\" stroke=\"#ccc\"/>"
     )?;
     for (i, (series, color)) in plot.series.iter().enumerate() {
         let y = top + 23.0 + 24.0 * i as f64;
@@ -188,7 +189,12 @@ mod tests {
         let series = Series { name: "fine".into(), points };
         let drawn = svg(&Plot { title: "title", x: "samples", y: "error", series: &[(series, "#123456")] });
         assert_eq!(drawn.matches("<circle").count(), 3 + 1);
-        assert!(drawn.contains("fine, slope −0.50") && drawn.contains(">16</text>"), "{drawn}");
+        assert!(
+            drawn.contains("fine, slope −0.50")
+                && drawn.contains(">16</text>")
+                && drawn.contains(">1 %</text>"),
+            "{drawn}"
+        );
         assert!(drawn.starts_with("<svg") && drawn.trim_end().ends_with("</svg>"));
         assert!(!drawn.contains("NaN") && !drawn.contains("inf"));
     }

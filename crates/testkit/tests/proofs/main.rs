@@ -6,3 +6,4 @@ mod convergence;
 mod lens_and_filter;
 mod lights;
 mod references;
+mod transport;
