@@ -13,22 +13,28 @@ pub struct Choice {
     pub remainder: f32,
 }
 
-/// Appends the cumulative table of `weights` (not negative, finite) to `out`: `weights.len() + 1` values from 0 to 1, all zero if
-/// every weight is. Returns the sum of the weights.
+/// Steps of a table: as many as a random number has, so that the probability of an entry is exactly how often it is drawn.
+const STEPS: u32 = 1 << 24;
+
+/// Appends the cumulative table of `weights` (not negative, finite, at most 2²³ of them) to `out`: `weights.len() + 1` multiples of 2⁻²⁴
+/// from 0 to 1, all zero if every weight is. Every positive weight gets at least one step. Returns the sum of the weights.
 pub fn write_cdf(weights: &[f32], out: &mut Vec<f32>) -> f64 {
+    let positive = weights.iter().filter(|&&w| w > 0.0).count() as u32;
+    assert!(positive <= STEPS / 2, "{positive} entries do not fit a table of {STEPS} steps");
     let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
-    let mut sum = 0.0;
+    // One step each, the rest by weight.
+    let (mut sum, mut passed) = (0.0, 0);
     out.push(0.0);
-    for (i, &w) in weights.iter().enumerate() {
+    for &w in weights {
         sum += f64::from(w);
-        let last = i + 1 == weights.len() && total > 0.0;
-        out.push(if last {
-            1.0
-        } else if total > 0.0 {
-            (sum / total) as f32
+        passed += u32::from(w > 0.0);
+        let share = if total > 0.0 { sum / total } else { 0.0 };
+        let steps = if passed == positive && total > 0.0 {
+            STEPS
         } else {
-            0.0
-        });
+            passed + (share * f64::from(STEPS - positive)) as u32
+        };
+        out.push(steps as f32 / STEPS as f32);
     }
     total
 }
@@ -41,7 +47,8 @@ pub fn sample_cdf(cdf: &[f32], u: f32) -> Option<Choice> {
         return None;
     }
     let (low, high) = (cdf[end - 1], cdf[end]);
-    let remainder = ((u - low) / (high - low)).min(ONE_MINUS_EPSILON);
+    // The middle of the step that `u` stands for.
+    let remainder = ((u - low + 0.5 / STEPS as f32) / (high - low)).min(ONE_MINUS_EPSILON);
     Some(Choice { index: end - 1, probability: high - low, remainder })
 }
 
@@ -61,6 +68,14 @@ mod tests {
         }
         assert_eq!(counts, [0, 100, 0, 300, 0]);
         assert_eq!(sample_cdf(&cdf, ONE_MINUS_EPSILON).unwrap().index, 3);
+        // However small a weight, it is drawn as often as its probability says.
+        let (mut uneven, mut drawn) = (Vec::new(), [0u32; 3]);
+        write_cdf(&[1e-30, 1e30, 1e-3], &mut uneven);
+        for i in (0..64).chain(STEPS - 64..STEPS) {
+            drawn[sample_cdf(&uneven, i as f32 / STEPS as f32).unwrap().index] += 1;
+        }
+        assert_eq!(drawn, [1, 126, 1]);
+        assert_eq!(uneven[1], 1.0 / STEPS as f32);
         let mut black = Vec::new();
         write_cdf(&[0.0, 0.0], &mut black);
         assert!(

@@ -204,13 +204,18 @@ impl Film {
     }
     /// Sums of one pixel.
     pub fn pixel(&self, x: u32, y: u32) -> &PixelSums {
-        &self.pixels[(y * self.width + x) as usize]
+        &self.pixels[self.index(x, y)]
+    }
+
+    fn index(&self, x: u32, y: u32) -> usize {
+        y as usize * self.width as usize + x as usize
     }
 
     /// Adds one camera sample. One that is not finite is counted and named instead: it enters the sample count as black, so
     /// that the count stays that of the samples taken.
     pub fn add(&mut self, pixel: [u32; 2], index: u32, sample: &FilmSample) {
-        let sums = &mut self.pixels[(pixel[1] * self.width + pixel[0]) as usize];
+        let at = self.index(pixel[0], pixel[1]);
+        let sums = &mut self.pixels[at];
         let finite = sample.radiance.is_finite()
             && sample.first_hit.is_none_or(|h| {
                 h.albedo.is_finite()
@@ -265,8 +270,7 @@ impl Film {
             "tile outside the film"
         );
         for y in 0..tile.height {
-            let from = (y * tile.width) as usize;
-            let to = ((at[1] + y) * self.width + at[0]) as usize;
+            let (from, to) = (tile.index(0, y), self.index(at[0], at[1] + y));
             let n = tile.width as usize;
             for (a, b) in self.pixels[to..to + n].iter_mut().zip(&tile.pixels[from..from + n]) {
                 a.merge(b);

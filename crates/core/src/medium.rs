@@ -61,10 +61,22 @@ impl MediumStack {
         if self.len == 0 { &Medium::VACUUM } else { &self.media[self.len - 1] }
     }
 
-    /// The innermost medium once the solid of `material` is left.
+    /// The media on both sides of the boundary of the solid `inside`, met on its front or its back: where the path is, and where it
+    /// would be beyond. Both are read from the stack, so that indices of refraction telescope along a path also where solids overlap.
     #[inline]
-    pub fn outside(&self, material: u32) -> Medium {
-        self.media[..self.len].iter().rfind(|m| m.material != material).copied().unwrap_or(Medium::VACUUM)
+    pub fn sides(&self, inside: Medium, front: bool) -> (Medium, Medium) {
+        if front {
+            return (*self.current(), inside);
+        }
+        match self.media[..self.len].iter().rposition(|m| m.material == inside.material) {
+            Some(at) if at + 1 == self.len => {
+                (inside, if at == 0 { Medium::VACUUM } else { self.media[at - 1] })
+            }
+            // Another medium lies further in, on both sides.
+            Some(_) => (*self.current(), *self.current()),
+            // The path began inside without knowing.
+            None => (inside, *self.current()),
+        }
     }
 
     /// Enters a solid.
@@ -117,7 +129,11 @@ mod tests {
         s.enter(m(1));
         s.enter(m(2));
         assert_eq!(s.current().material, 2);
-        assert_eq!(s.outside(2).material, 1);
+        let materials = |(a, b): (Medium, Medium)| [a.material, b.material];
+        assert_eq!(materials(s.sides(m(2), false)), [2, 1]);
+        assert_eq!(materials(s.sides(m(1), false)), [2, 2], "the water stays around");
+        assert_eq!(materials(s.sides(m(3), true)), [2, 3]);
+        assert_eq!(materials(s.sides(m(3), false)), [3, 2]);
         s.leave(1);
         assert_eq!(s.current().material, 2);
         s.leave(7);

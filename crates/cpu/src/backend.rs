@@ -13,7 +13,7 @@ use lumbre_core::Ray;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::{Film, FilmSample};
 use lumbre_core::filter::Filter;
-use lumbre_core::medium::{Medium, MediumStack};
+use lumbre_core::medium::MediumStack;
 use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::View;
 use lumbre_scene::CompiledScene;
@@ -64,8 +64,8 @@ impl CpuBackend {
         Shot { tracer, view, filter, media, size }
     }
 
-    /// Adds the samples of `range` to every pixel of `film`, which has the size of the picture. Stops between tiles when
-    /// cancelled; pixels then differ in their sample counts. Returns what was done.
+    /// Adds the samples of `range` to every pixel of `film`, which has the size of the picture. Stops between rows of
+    /// tiles when cancelled; pixels then differ in their sample counts. Returns what was done.
     pub fn render(&self, view: &View, range: Range<u32>, film: &mut Film, control: &dyn Control) -> Progress {
         let (width, height) = (film.width(), film.height());
         let shot = self.shot(view, [width, height]);
@@ -79,7 +79,10 @@ impl CpuBackend {
             let at = [tile % columns * TILE, tile / columns * TILE];
             let mut part = Film::new(TILE.min(width - at[0]), TILE.min(height - at[1]));
             let mut counter = RayCounter::default();
-            for y in 0..part.height() {
+            let mut rows = 0;
+            while rows < part.height() && !control.cancelled() {
+                let y = rows;
+                rows += 1;
                 for x in 0..part.width() {
                     for index in range.clone() {
                         let sample = shot.sample([at[0] + x, at[1] + y], index, &mut counter);
@@ -87,7 +90,7 @@ impl CpuBackend {
                     }
                 }
             }
-            let taken = u64::from(part.width()) * u64::from(part.height()) * range.len() as u64;
+            let taken = u64::from(part.width()) * u64::from(rows) * range.len() as u64;
             film.lock().expect("no tile panics while it holds the film").merge_tile(&part, at);
             control.progress(Progress {
                 samples: samples.fetch_add(taken, Ordering::Relaxed) + taken,
@@ -109,36 +112,51 @@ impl CpuBackend {
         self.shot(view, size).sample(pixel, index, observer)
     }
 
-    /// The solids around a point: those that a ray to infinity leaves without having entered them.
+    /// The solids around a point: those that rays to infinity leave without having entered them, in every one of a few directions,
+    /// so that a pane which is open but claims to be solid does not count.
     pub fn media_at(&self, point: Vec3) -> MediumStack {
-        // Not along an axis, so that it does not graze the walls of common models.
-        let dir = Vec3::new(0.267, 0.875, 0.404).normalize();
-        let mut ray = Ray::new(point, dir, 0.0);
-        let mut entered: Vec<u32> = Vec::new();
-        let mut around: Vec<Medium> = Vec::new();
-        const MOST_CROSSINGS: usize = 256;
-        for _ in 0..MOST_CROSSINGS {
-            let is_solid =
-                |hit: &Hit| self.scene.materials[material_of(&self.scene, hit) as usize].has(flag::SOLID);
-            let Some(hit) = self.accel.closest_hit(&ray, is_solid) else { break };
-            let id = material_of(&self.scene, &hit);
-            let material = &self.scene.materials[id as usize];
-            let it = Interaction::new(&self.scene, &ray, &hit);
-            ray.origin = it.leave(dir);
-            if !material.has(flag::SOLID) {
-                continue; // opaque instances do not ask the filter
-            }
-            if it.front {
-                entered.push(id);
-            } else if let Some(i) = entered.iter().rposition(|&e| e == id) {
-                entered.remove(i);
-            } else {
-                around.push(medium(material, id));
-            }
+        // Not along an axis, so that they do not graze the walls of common models.
+        let directions = [
+            (0.267, 0.875, 0.404),
+            (-0.611, -0.733, 0.298),
+            (0.349, -0.211, -0.913),
+            (-0.728, 0.405, -0.553),
+        ];
+        let mut around = directions.map(|d| self.left_behind(point, Vec3::from(d).normalize())).into_iter();
+        let mut enclosing = around.next().unwrap_or_default();
+        for others in around {
+            enclosing.retain(|m| others.contains(m));
         }
         let mut stack = MediumStack::default();
-        around.into_iter().rev().for_each(|m| stack.enter(m));
+        let media = enclosing.into_iter().rev();
+        media.for_each(|id| stack.enter(medium(&self.scene.materials[id as usize], id)));
         stack
+    }
+
+    /// Materials of the solids that a ray to infinity leaves without having entered them, innermost first.
+    fn left_behind(&self, point: Vec3, dir: Vec3) -> Vec<u32> {
+        const MOST_CROSSINGS: usize = 256;
+        let is_solid = |id: u32| self.scene.materials[id as usize].has(flag::SOLID);
+        let mut ray = Ray::new(point, dir, 0.0);
+        let (mut entered, mut left) = (Vec::new(), Vec::new());
+        for _ in 0..MOST_CROSSINGS {
+            // Opaque surfaces do not ask the filter: they are passed below.
+            let solids = |hit: &Hit| is_solid(material_of(&self.scene, hit));
+            let Some(hit) = self.accel.closest_hit(&ray, solids) else { break };
+            let it = Interaction::new(&self.scene, &ray, &hit);
+            ray.origin = it.leave(dir);
+            if !is_solid(it.material) {
+                continue;
+            }
+            if it.front {
+                entered.push(it.material);
+            } else if let Some(i) = entered.iter().rposition(|&e| e == it.material) {
+                entered.remove(i);
+            } else {
+                left.push(it.material);
+            }
+        }
+        left
     }
 }
 

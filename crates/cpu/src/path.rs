@@ -46,6 +46,8 @@ struct Path<'a, 't, O> {
     eta_scale: f32,
     media: MediumStack,
     arrival: Arrival,
+    /// So far it has only met delta lobes: what it finds is seen, not lit by.
+    seen_by_camera: bool,
     /// Scattering events so far.
     depth: u32,
     max_depth: u32,
@@ -71,6 +73,7 @@ pub fn radiance<O: PathObserver>(
         eta_scale: 1.0,
         media,
         arrival,
+        seen_by_camera: true,
         depth: 0,
         max_depth: tracer.settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND),
     };
@@ -165,7 +168,10 @@ impl<O: PathObserver> Path<'_, '_, O> {
         let scene = self.tracer.scene;
         let material = &scene.materials[it.material as usize];
         if material.has(flag::UNLIT) {
-            self.add("unlit surface", surface.base_color, 1.0);
+            // It shows itself, directly and in mirrors and panes, and lights nothing.
+            if self.seen_by_camera {
+                self.add("unlit surface", surface.base_color, 1.0);
+            }
             return true;
         }
         let radiance = emission(scene, material, &it.uv, it.front);
@@ -277,7 +283,10 @@ impl<O: PathObserver> Path<'_, '_, O> {
                 self.arrival = Arrival { p: it.p, pdf: None, through_solid };
             }
             Lobe::SpecularReflection => self.arrival = Arrival { p: it.p, pdf: None, through_solid: false },
-            _ => self.arrival = Arrival { p: it.p, pdf: Some(s.pdf), through_solid: false },
+            _ => {
+                self.arrival = Arrival { p: it.p, pdf: Some(s.pdf), through_solid: false };
+                self.seen_by_camera = false;
+            }
         }
     }
 

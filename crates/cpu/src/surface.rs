@@ -77,20 +77,17 @@ impl Surface {
     ) -> Self {
         let material = &scene.materials[it.material as usize];
         let base_color = base_color(scene, material, &it.uv, &it.color).rgb;
-        let solid = material.has(flag::SOLID);
-        let beyond =
-            solid.then(|| if it.front { medium(material, it.material) } else { media.outside(it.material) });
-        // On its back the ray is inside the solid, whatever the stack could hold.
-        let here = if it.front { media.current().ior } else { material.ior };
+        let sides = material.has(flag::SOLID).then(|| media.sides(medium(material, it.material), it.front));
         let params = bsdf_params(scene, material, &it.uv, base_color);
-        let params = BsdfParams { eta: beyond.map_or(1.0, |m| m.ior / here), diffuse_sampling, ..params };
+        let eta = sides.map_or(1.0, |(here, beyond)| beyond.ior / here.ior);
+        let params = BsdfParams { eta, diffuse_sampling, ..params };
         let ng = if it.front { it.ng } else { -it.ng };
         Surface {
             frame: shading_frame(scene, material, it, wo, ng),
             ng,
             bsdf: Bsdf::new(&params),
             base_color,
-            beyond,
+            beyond: sides.map(|(_, beyond)| beyond),
         }
     }
 }

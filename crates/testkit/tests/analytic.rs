@@ -6,7 +6,9 @@ use lumbre_core::Camera;
 use lumbre_core::math::{INV_PI, PI};
 use lumbre_core::sampler::SamplerKind;
 use lumbre_core::settings::RenderSettings;
-use lumbre_scene::{Background, Environment, Light, LightId, LightKind, Material, Node, Primitive, Scene};
+use lumbre_scene::{
+    Background, Environment, Light, LightId, LightKind, Material, Mesh, Node, Primitive, Scene, Volume,
+};
 use lumbre_testkit::measure::{analytic_settings, film, grey, mean, pinhole, prepare, radiance};
 use lumbre_testkit::shapes::{
     add, bumpy_icosphere, cuboid, disc, icosphere, inside_out, rectangle, smooth_icosphere,
@@ -248,6 +250,56 @@ fn glass_in_a_furnace() {
     check(&scene, camera, analytic_settings(), 1.0, "clear glass sphere");
     add(&mut scene, icosphere(Vec3::ZERO, 0.5, 4), Material::glass(1.33, 0.0));
     check(&scene, camera, analytic_settings(), 1.0, "water inside glass");
+}
+
+/// Row 39 for solids that overlap: two boxes of one glass, and water drawn a little into the glass around it.
+#[test]
+fn overlapping_solids_in_a_furnace() {
+    let camera = pinhole(Vec3::new(0.1, 0.2, 4.0), Vec3::new(0.1, 0.2, 0.0), 0.1);
+    let block = |z: f32| cuboid(Vec3::new(-1.0, -1.0, z - 0.5), Vec3::new(1.0, 1.0, z + 0.5));
+    for second in [1.5, 1.33] {
+        let mut scene = furnace();
+        let glass = scene.add_material(Material::glass(1.5, 0.0));
+        let other = if second == 1.5 { glass } else { scene.add_material(Material::glass(second, 0.0)) };
+        for (shape, material) in [(block(0.0), glass), (block(0.7), other)] {
+            let primitives = vec![Primitive { material: Some(material), ..shape }];
+            let mesh = scene.add_mesh(Mesh { name: String::new(), primitives });
+            scene.add_root(Node { mesh: Some(mesh), ..Node::default() });
+        }
+        check(&scene, camera, analytic_settings(), 1.0, "overlapping solids");
+    }
+}
+
+/// A pane that claims to be solid but is open does not put the camera inside it.
+#[test]
+fn an_open_solid_does_not_enclose_the_camera() {
+    let mut scene = furnace();
+    let dark = Volume { thickness: 1.0, attenuation_color: grey(0.01), attenuation_distance: 0.1 };
+    let pane = rectangle(Vec3::Y, Vec3::X * 50.0, Vec3::NEG_Z * 50.0);
+    add(&mut scene, pane, Material { volume: Some(dark), ..Material::glass(1.5, 0.0) });
+    let camera = pinhole(Vec3::ZERO, Vec3::new(0.0, -1.0, 0.1), 0.1);
+    check(&scene, camera, analytic_settings(), 1.0, "below an open pane");
+}
+
+/// A lamp in a closed room is found, whatever shines outside: ρ I / (π d²) beside a sun of 100 000 lx on a plain of 4 km.
+#[test]
+fn a_lamp_does_not_vanish_beside_a_sun_outside() {
+    let mut scene = Scene::default();
+    add(&mut scene, inside_out(cuboid(Vec3::splat(-2.0), Vec3::splat(2.0))), Material::diffuse(grey(0.5)));
+    add(
+        &mut scene,
+        rectangle(Vec3::Y * -3.0, Vec3::Z * 2000.0, Vec3::X * 2000.0),
+        Material::diffuse(grey(0.5)),
+    );
+    for (kind, intensity) in [(LightKind::Directional, 1e5), (LightKind::Point, 100.0)] {
+        let light = Some(LightId(scene.lights.len() as u32));
+        scene.lights.push(Light { name: String::new(), kind, intensity: grey(intensity) });
+        let transform = glam::Mat4::from_rotation_x(-0.5 * PI);
+        scene.add_root(Node { light, transform, ..Node::default() });
+    }
+    let settings = RenderSettings { max_depth: Some(1), ..analytic_settings() };
+    let camera = pinhole(Vec3::new(0.5, 0.0, 0.0), Vec3::Y * -2.0, 1e-4);
+    check(&scene, camera, settings, 0.5 * 100.0 / (4.0 * f64::from(PI)), "lamp beside a sun");
 }
 
 /// Row 40: a Lambert surface of albedo 1, cosine sampling, no light sampling: every sample is 1.

@@ -17,8 +17,13 @@ pub struct SunDisc {
 }
 
 impl SunDisc {
-    /// A disc that gives `irradiance` on a surface facing it: E = π sin²α L.
+    /// Smallest angular radius, radians: a smaller disc has a density that single precision cannot tell from a point's.
+    pub const MIN_ANGULAR_RADIUS: f32 = 1e-4;
+
+    /// A disc that gives `irradiance` on a surface facing it: E = π sin²α L. Its angular radius is brought into
+    /// [`SunDisc::MIN_ANGULAR_RADIUS`] to π/2.
     pub fn new(direction: Vec3, angular_radius: f32, irradiance: Spectrum) -> Self {
+        let angular_radius = angular_radius.clamp(Self::MIN_ANGULAR_RADIUS, 0.5 * PI);
         let (s, _) = sin_cos(angular_radius);
         let (half, _) = sin_cos(0.5 * angular_radius);
         SunDisc { direction, one_minus_cos: 2.0 * sqr(half), radiance: irradiance * (1.0 / (PI * sqr(s))) }

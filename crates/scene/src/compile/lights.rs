@@ -1,6 +1,7 @@
 //! Lights: emissive triangles, punctual lights, sun, environment, and the table that chooses among them by power.
 
 use super::{CompileError, PlacedLight};
+use crate::compiled::geometry::MeshRecord;
 use crate::compiled::lights::{
     EnvironmentRecord, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord, kind,
 };
@@ -24,6 +25,7 @@ pub(super) fn compile(
     out: &mut CompiledScene,
     notes: &mut Vec<String>,
 ) -> Result<(), CompileError> {
+    check_count(placed.len(), out)?;
     let mut powers = Vec::new();
     for (instance, to_world) in transforms.iter().enumerate() {
         add_triangles(instance, *to_world, out, &mut powers)?;
@@ -33,11 +35,56 @@ pub(super) fn compile(
     }
     add_sun(scene, out, &mut powers);
     add_environment(scene, out, &mut powers)?;
-    // A light whose power overflows or is not a number still gets its turn.
-    let weights: Vec<f32> =
-        powers.iter().map(|p| if p.is_finite() { p.max(0.0) } else { f32::MAX / 1e6 }).collect();
-    write_cdf(&weights, &mut out.light_cdf);
+    write_cdf(&weights(&out.lights, &powers), &mut out.light_cdf);
     Ok(())
+}
+
+/// Most lights: each must find a place in the table that chooses among them.
+const MOST_LIGHTS: u32 = 1 << 22;
+
+/// Counts the lights before anything is made of them.
+fn check_count(punctual: usize, out: &CompiledScene) -> Result<(), CompileError> {
+    let emissive = |mesh: &MeshRecord| -> u64 {
+        let (first, count) = (mesh.first_emissive_rank, mesh.triangle_count);
+        if first == NONE {
+            return 0;
+        }
+        let ranks = &out.emissive_ranks[first as usize..(first + count) as usize];
+        ranks.iter().filter(|&&r| r != NONE).count() as u64
+    };
+    let of_mesh: Vec<u64> = out.meshes.iter().map(emissive).collect();
+    let total: u64 =
+        out.instances.iter().map(|i| of_mesh[i.mesh as usize]).sum::<u64>() + punctual as u64 + 2;
+    if total > u64::from(MOST_LIGHTS) {
+        return Err(CompileError::TooLarge {
+            what: "lights (emissive triangles of every instance)",
+            limit: MOST_LIGHTS,
+        });
+    }
+    Ok(())
+}
+
+/// Share of the choice that goes by power. The rest is split evenly, half among the lights at a distance and half among those
+/// that are not: power says nothing of how much arrives, and a lamp must not vanish beside a sun that does not shine in.
+const BY_POWER: f64 = 0.8;
+
+/// Weights of the choice among lights.
+fn weights(lights: &[LightRecord], powers: &[f32]) -> Vec<f32> {
+    // A light whose power overflows or is not a number still gets its turn.
+    let powers =
+        powers.iter().map(|p| if p.is_finite() { f64::from(p.max(0.0)) } else { f64::from(f32::MAX) });
+    let powers: Vec<f64> = powers.collect();
+    let total: f64 = powers.iter().sum();
+    let is_far = |l: &LightRecord| matches!(l.kind, kind::DIRECTIONAL | kind::SUN | kind::ENVIRONMENT);
+    let far = lights.iter().filter(|l| is_far(l)).count();
+    let groups = if far == 0 || far == lights.len() { 1.0 } else { 2.0 };
+    let even = |l: &LightRecord| {
+        let members = if is_far(l) { far } else { lights.len() - far };
+        (1.0 - BY_POWER) / (groups * members as f64)
+    };
+    let weight =
+        |(l, p): (&LightRecord, &f64)| (BY_POWER * p / total.max(f64::MIN_POSITIVE) + even(l)) as f32;
+    lights.iter().zip(&powers).map(weight).collect()
 }
 
 fn push(out: &mut CompiledScene, powers: &mut Vec<f32>, kind: u32, index: usize, power: Rgb) -> u32 {
@@ -56,7 +103,6 @@ fn add_triangles(
     if mesh.first_emissive_rank == NONE {
         return Ok(());
     }
-    super::index32(out.lights.len() + mesh.triangle_count as usize, "lights")?;
     out.instances[instance].first_light = out.lights.len() as u32;
     let handedness = out.transforms[out.instances[instance].first_transform as usize].handedness;
     for triangle in 0..mesh.triangle_count {
@@ -170,6 +216,9 @@ fn add_sun(scene: &Scene, out: &mut CompiledScene, powers: &mut Vec<f32>) {
     };
 }
 
+/// Brightest texel: sums of a whole map stay finite.
+const BRIGHTEST: f32 = 1e30;
+
 fn add_environment(
     scene: &Scene,
     out: &mut CompiledScene,
@@ -191,7 +240,7 @@ fn add_environment(
     let strength = environment.strength.max(0.0);
     out.environment_pixels = pixels
         .iter()
-        .map(|p| (*p * strength).map(|v| if v.is_finite() { v.max(0.0) } else { 0.0 }))
+        .map(|p| (*p * strength).map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, BRIGHTEST) }))
         .collect();
     let (rows, cells, mean) = environment::build_distribution(width, height, &out.environment_pixels);
     (out.environment_row_cdf, out.environment_cell_cdf) = (rows, cells);
@@ -209,7 +258,7 @@ fn add_environment(
 fn gradient() -> (u32, u32, Vec<Rgb>) {
     const ROWS: u32 = 256;
     let (zenith, horizon, ground) =
-        (Rgb::new(0.28, 0.55, 1.15), Rgb::new(1.05, 1.12, 1.2), Rgb::new(0.32, 0.29, 0.26));
+        (Rgb::new(0.54, 1.07, 2.24), Rgb::new(2.04, 2.18, 2.33), Rgb::new(0.62, 0.56, 0.50));
     let row = |y: u32| {
         let elevation = 0.5 - (y as f32 + 0.5) / ROWS as f32; // in half turns, 0.5 at the zenith
         if elevation >= 0.0 {
@@ -220,4 +269,27 @@ fn gradient() -> (u32, u32, Vec<Rgb>) {
         }
     };
     (1, ROWS, (0..ROWS).map(row).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gradient_s_mean_is_near_one() {
+        let (w, h, pixels) = gradient();
+        let mean = environment::build_distribution(w, h, &pixels).2.luminance();
+        assert!((mean - 1.0).abs() < 0.02, "{mean}");
+    }
+
+    #[test]
+    fn no_light_vanishes_beside_a_strong_one() {
+        let light = |kind| LightRecord { kind, index: 0 };
+        let lights = [light(kind::POINT), light(kind::POINT), light(kind::SUN)];
+        let w = weights(&lights, &[1.0, 3.0, 1e20]);
+        assert!(w[0] >= 0.05 && w[1] >= w[0] && w[2] >= 0.8, "{w:?}");
+        assert!(w.iter().sum::<f32>() > 0.999);
+        let dark = weights(&lights[..2], &[0.0, f32::NAN]);
+        assert!(dark.iter().all(|w| *w >= 0.1 && w.is_finite()), "{dark:?}");
+    }
 }

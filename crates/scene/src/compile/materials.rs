@@ -8,7 +8,11 @@ use lumbre_core::Rgb;
 use lumbre_core::math::sin_cos;
 use lumbre_core::medium::absorption_from_color;
 
-pub(super) fn compile(scene: &Scene, out: &mut CompiledScene) -> Result<(), CompileError> {
+pub(super) fn compile(
+    scene: &Scene,
+    out: &mut CompiledScene,
+    notes: &mut Vec<String>,
+) -> Result<(), CompileError> {
     for (i, m) in scene.materials.iter().enumerate() {
         let textures = [
             &m.base_color_texture,
@@ -26,6 +30,9 @@ pub(super) fn compile(scene: &Scene, out: &mut CompiledScene) -> Result<(), Comp
                 return Err(CompileError::Invalid { place: format!("/materials/{i}"), message });
             }
         }
+        if is_solid(m) && m.alpha_mode != AlphaMode::Opaque {
+            notes.push(format!("/materials/{i}: solid glass has no alpha; its alpha mode is ignored"));
+        }
         out.materials.push(record(m));
     }
     let standard = Material { metallic: 0.0, double_sided: true, ..Material::default() };
@@ -42,16 +49,22 @@ fn unit(v: f32, otherwise: f32) -> f32 {
     if v.is_nan() { otherwise } else { v.clamp(0.0, 1.0) }
 }
 
+/// The boundary of a solid that transmits.
+fn is_solid(m: &Material) -> bool {
+    m.volume.is_some_and(|v| v.thickness > 0.0) && m.transmission > 0.0 && !m.unlit
+}
+
 fn record(m: &Material) -> MaterialRecord {
     let emission = positive(m.emission);
-    let solid = m.volume.filter(|v| v.thickness > 0.0);
+    let solid = is_solid(m);
     let mut flags = 0;
     let mut set = |on: bool, bit: u32| flags |= if on { bit } else { 0 };
     set(m.double_sided, flag::DOUBLE_SIDED);
     set(m.unlit, flag::UNLIT);
-    set(matches!(m.alpha_mode, AlphaMode::Mask { .. }), flag::ALPHA_MASK);
-    set(m.alpha_mode == AlphaMode::Blend, flag::ALPHA_BLEND);
-    set(solid.is_some() && m.transmission > 0.0, flag::SOLID);
+    // A ray that entered a solid must leave it: its two sides cannot be there by chance.
+    set(matches!(m.alpha_mode, AlphaMode::Mask { .. }) && !solid, flag::ALPHA_MASK);
+    set(m.alpha_mode == AlphaMode::Blend && !solid, flag::ALPHA_BLEND);
+    set(solid, flag::SOLID);
     set(!emission.is_black() && !m.unlit, flag::EMISSIVE);
     MaterialRecord {
         base_color: positive(m.base_color).min(1.0),
@@ -60,7 +73,7 @@ fn record(m: &Material) -> MaterialRecord {
         alpha_cutoff: if let AlphaMode::Mask { cutoff } = m.alpha_mode { cutoff } else { 0.5 },
         specular_color: positive(m.specular_color),
         specular: unit(m.specular, 1.0),
-        absorption: solid.map_or(Rgb::BLACK, |v| {
+        absorption: m.volume.filter(|_| solid).map_or(Rgb::BLACK, |v| {
             absorption_from_color(positive(v.attenuation_color), v.attenuation_distance)
         }),
         // KHR_materials_ior: 0 asks for total reflection, which a very large index gives.
@@ -73,7 +86,7 @@ fn record(m: &Material) -> MaterialRecord {
         },
         metallic: unit(m.metallic, 0.0),
         roughness: unit(m.roughness, 1.0),
-        transmission: unit(m.transmission, 0.0),
+        transmission: if m.unlit { 0.0 } else { unit(m.transmission, 0.0) },
         normal_scale: m.normal_scale,
         flags,
         base_color_texture: texture_use(&m.base_color_texture),

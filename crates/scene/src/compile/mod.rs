@@ -34,11 +34,13 @@ pub enum CompileError {
         /// What is wrong.
         message: String,
     },
-    /// More triangles, vertices or texels than 32-bit indices reach.
-    #[error("the scene has more {what} than can be drawn (over 4 billion)")]
+    /// More of something than can be drawn.
+    #[error("the scene has more {what} than can be drawn ({limit} at most)")]
     TooLarge {
         /// Of what.
         what: &'static str,
+        /// How many can be drawn.
+        limit: u32,
     },
 }
 
@@ -63,7 +65,7 @@ pub fn compile(scene: &Scene) -> Result<Compiled, CompileError> {
     let mut out = CompiledScene::default();
     let mut notes = Vec::new();
     textures::compile(scene, &mut out)?;
-    materials::compile(scene, &mut out)?;
+    materials::compile(scene, &mut out, &mut notes)?;
     let (placed, lights) = walk(scene, &mut notes)?;
     let kept = meshes::compile(scene, &placed, &mut out, &mut notes)?;
     lights::compile(scene, &lights, &kept, &mut out, &mut notes)?;
@@ -139,7 +141,10 @@ fn check(
 /// Narrows a count to the width of an index.
 fn index32(n: usize, what: &'static str) -> Result<u32, CompileError> {
     // NONE is not an index.
-    u32::try_from(n).ok().filter(|&n| n < u32::MAX).ok_or(CompileError::TooLarge { what })
+    u32::try_from(n)
+        .ok()
+        .filter(|&n| n < u32::MAX)
+        .ok_or(CompileError::TooLarge { what, limit: u32::MAX - 1 })
 }
 
 /// Grows a bounding box.
