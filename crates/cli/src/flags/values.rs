@@ -162,8 +162,8 @@ pub(crate) struct SunFlag {
 }
 
 impl SunFlag {
-    /// Illuminance of the sun beside a sky whose mean radiance is near 1: such a sky alone gives the ground about π lux,
-    /// and on a clear day the sun gives some five times as much as the sky.
+    /// Illuminance of the sun beside the gradient sky, whose mean radiance is 1 and which alone gives the ground nearly 4 lux: on a
+    /// clear day the sun gives some four to five times as much as the sky.
     pub(crate) const STRENGTH: f32 = 15.0;
 }
 

@@ -2,7 +2,7 @@
 
 use lumbre_core::Rgb;
 
-/// Narkowicz' fit of the ACES curve (2015), (k0 x² + k1 x) / (k3 x² + k4 x + k5), with the exposure of 0.6 that the fit
+/// Narkowicz' fit of the ACES curve (2016), (k0 x² + k1 x) / (k3 x² + k4 x + k5), with the exposure of 0.6 that the fit
 /// leaves out multiplied in.
 const ACES: [f64; 5] = [0.36 * 2.51, 0.6 * 0.03, 0.36 * 2.43, 0.6 * 0.59, 0.14];
 
