@@ -70,7 +70,11 @@ fn exposure_makes_png_brighter_or_darker() {
 fn a_picture_that_cannot_be_written_is_refused_before_the_work() {
     let dir = folder();
     let long = format!("render {CORNELL} --spp 1000000 -o {}", dir.path().display());
-    lumbre(&format!("{long}/none/a.png")).exits(74).says("cannot write: No such file");
+    let missing = dir.path().join("none").display().to_string();
+    lumbre(&format!("{long}/none/a.png"))
+        .exits(74)
+        .says(&format!("cannot write: there is no folder {missing}\n"))
+        .does_not_say(".tmp");
     lumbre(&long).exits(2).says("the output is a .png or .exr");
     lumbre(&format!("{long}/a.jpg")).exits(2).says("the output is a .png or .exr");
     std::fs::create_dir(dir.path().join("b.png")).unwrap();
