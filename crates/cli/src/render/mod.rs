@@ -11,8 +11,6 @@ use crate::flags::values::Size;
 use crate::interrupt::{self, Phase};
 use crate::progress::{Finish, Reporter, Start};
 use crate::{console, memory};
-use lumbre::cpu::CpuBackend;
-use lumbre::cpu::bvh::SimdLevel;
 use lumbre::prelude::*;
 use lumbre::{Watched, core::control::Control};
 use outputs::Outputs;
@@ -22,7 +20,8 @@ use std::time::Instant;
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<Code, Failure> {
     // Whatever can be known to fail is found before the work begins.
-    let level = SimdLevel::detect().map_err(Failure::usage)?;
+    let (device, why) = args.run.device.choose();
+    device.check()?;
     let outputs = if args.replay.pixel.is_some() { Outputs::none() } else { Outputs::check(args)? };
     let camera = args.camera.options()?;
     if let Some(Size(size)) = args.output.size {
@@ -35,17 +34,21 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Code, Failure> {
     pool.install(|| {
         let Opened { compiled, camera, size, load_seconds } = scene::open(args, &camera)?;
         memory::check(size, outputs.bytes_per_pixel(), args.run.memory_limit)?;
-        let start = Instant::now();
-        let (_, why) = args.run.device.choose();
-        let backend = CpuBackend::new(compiled).with_level(level);
-        let build_seconds = start.elapsed().as_secs_f64();
-        console::note(format_args!("device: {} ({why})", backend.device()));
         let job =
             Job { args, outputs, view: View { camera, settings: args.sampling.settings(), frame: 0 }, size };
-        match args.replay.pixel {
-            Some(pixel) => replay::run(&job, &backend, pixel),
-            None => job.picture(&backend, &cancel, load_seconds, build_seconds),
+        let say = |backend: &dyn Backend, why| {
+            console::note(format_args!("device: {} ({why})", backend.device()));
+        };
+        if let Some(pixel) = args.replay.pixel {
+            let backend = lumbre::prepare_cpu(compiled)?;
+            say(&backend, "--pixel always runs there");
+            return replay::run(&job, &backend, pixel);
         }
+        let start = Instant::now();
+        let backend = lumbre::prepare(compiled, device)?;
+        let build_seconds = start.elapsed().as_secs_f64();
+        say(&*backend, why);
+        job.picture(&*backend, &cancel, load_seconds, build_seconds)
     })
 }
 
