@@ -27,7 +27,7 @@ pub mod render;
 pub use backend::{Backend, Device, DeviceError, prepare, prepare_cpu};
 pub use camera::{CameraChoice, CameraOptions, authored_aspect, find_camera};
 pub use cancel::{CancelToken, Watched};
-pub use light::has_light;
+pub use light::{LightKinds, light_kinds};
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
 pub use lumbre_scene::{CompileError, Compiled, compile};
 pub use render::render;

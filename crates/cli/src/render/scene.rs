@@ -7,7 +7,7 @@ use crate::flags::render::RenderArgs;
 use crate::flags::values::{MAX_SIDE, Size, Sky, SunFlag};
 use lumbre::core::{Camera, Rgb};
 use lumbre::io::Limits;
-use lumbre::scene::{Background, CompiledScene, Environment, Sun};
+use lumbre::scene::{Background, CompiledScene, Environment, Scene, Sun};
 use lumbre::{CameraOptions, LoadOptions};
 use std::time::Instant;
 
@@ -27,14 +27,7 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
     // Before the costly part: is the camera there?
     let aspect = lumbre::authored_aspect(&loaded.scene, &options.choice).map_err(Failure::usage)?;
     set_environment(&args.light, &mut loaded.scene.environment)?;
-    if !lumbre::has_light(&loaded.scene) {
-        if args.light.sky.is_none() && args.light.env.is_none() && args.light.sun.is_none() {
-            loaded.scene.environment.background = Background::Gradient;
-            console::note("light: nothing in the scene gives any; gradient sky added (--sky off: none)");
-        } else {
-            console::warning("nothing gives light: the picture will be black");
-        }
-    }
+    mind_the_light(&args.light, &mut loaded.scene);
     let compiled = lumbre::compile(&loaded.scene)?;
     compiled.notes.iter().for_each(console::warning);
     let size = match args.output.size {
@@ -49,6 +42,26 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
     }
     let load_seconds = start.elapsed().as_secs_f64();
     Ok(Opened { compiled: compiled.scene, camera: found.camera, size, load_seconds })
+}
+
+/// Gives a scene without any light a gradient sky, unless the flags say what light there is; says what may surprise.
+fn mind_the_light(args: &LightArgs, scene: &mut Scene) {
+    let kinds = lumbre::light_kinds(scene);
+    let asked = args.sky.is_some() || args.env.is_some() || args.sun.is_some();
+    if kinds.any() {
+        if kinds.only_emissive() && !asked {
+            console::note("light: emissive surfaces only; --sky gradient adds a sky");
+        }
+        return;
+    }
+    if !asked {
+        scene.environment.background = Background::Gradient;
+        console::note("light: nothing in the scene gives any; gradient sky added (--sky off: none)");
+    } else if kinds.unlit {
+        console::warning("nothing gives light: only unlit surfaces will be seen");
+    } else {
+        console::warning("nothing gives light: the picture will be black");
+    }
 }
 
 /// Rows of a picture for which no size was asked.
