@@ -32,10 +32,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Code, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|e| Failure::new(Code::Memory, format!("cannot start the threads: {e}")))?;
     pool.install(|| {
-        let Opened { compiled, camera, size, load_seconds } = scene::open(args, &camera)?;
+        let Opened { compiled, camera, size, sky_added, load_seconds } = scene::open(args, &camera)?;
         memory::check(size, outputs.bytes_per_pixel(), args.run.memory_limit)?;
-        let job =
-            Job { args, outputs, view: View { camera, settings: args.sampling.settings(), frame: 0 }, size };
+        let view = View { camera, settings: args.sampling.settings(), frame: 0 };
+        let job = Job { args, outputs, view, size, sky_added };
         let say = |backend: &dyn Backend, why| {
             console::note(format_args!("device: {} ({why})", backend.device()));
         };
@@ -58,6 +58,7 @@ struct Job<'a> {
     outputs: Outputs,
     view: View,
     size: [u32; 2],
+    sky_added: bool,
 }
 
 impl Job<'_> {
@@ -93,7 +94,9 @@ impl Job<'_> {
         }
         let saturated = report::film(&film);
         let start = Instant::now();
-        self.outputs.write(&film, self.args, interrupted.then_some(done.samples))?;
+        let interrupted_after = interrupted.then_some(done.samples);
+        let metadata = outputs::metadata(self.args, self.sky_added, interrupted_after);
+        self.outputs.write(&film, self.args.output.exposure, &metadata)?;
         let write_seconds = start.elapsed().as_secs_f64();
         reporter.finish(&Finish {
             done,
