@@ -1,5 +1,6 @@
 //! How a command ends: the codes (after BSD's sysexits.h where it has a fitting one) and the failures that carry them.
 
+use lumbre::DeviceError;
 use lumbre::compare::CompareError;
 use lumbre::io::{ErrorKind, IoError};
 use lumbre::scene::CompileError;
@@ -61,6 +62,12 @@ impl From<IoError> for Failure {
             ErrorKind::CannotWrite => Code::CannotWrite,
         };
         Self::new(code, e)
+    }
+}
+
+impl From<DeviceError> for Failure {
+    fn from(e: DeviceError) -> Self {
+        Self::usage(e)
     }
 }
 

@@ -40,7 +40,7 @@ pub(crate) fn write_atomic(
     let fail = |e: io::Error| IoError::write(path, e);
     let target = write_target(path)?;
     let folder = folder_of(&target);
-    let mut temporary = temporary_beside(folder, &target).map_err(fail)?;
+    let mut temporary = temporary_beside(folder, &target).map_err(|reason| IoError::write(path, reason))?;
     fill(temporary.as_file_mut()).map_err(|reason| IoError::write(path, reason))?;
     temporary.as_file().sync_all().map_err(fail)?;
     temporary.persist(&target).map_err(|e| fail(e.error))?;
@@ -56,7 +56,7 @@ pub(crate) fn write_atomic(
 pub fn check_writable(path: impl AsRef<Path>) -> Result<(), IoError> {
     let path = path.as_ref();
     let target = write_target(path)?;
-    temporary_beside(folder_of(&target), &target).map_err(|e| IoError::write(path, e))?;
+    temporary_beside(folder_of(&target), &target).map_err(|reason| IoError::write(path, reason))?;
     Ok(())
 }
 
@@ -79,7 +79,8 @@ fn write_target(path: &Path) -> Result<PathBuf, IoError> {
     fs::canonicalize(path).map_err(|e| IoError::write(path, e))
 }
 
-fn temporary_beside(folder: &Path, target: &Path) -> io::Result<tempfile::NamedTempFile> {
+/// The reason of a failure names the folder: nobody knows the temporary file.
+fn temporary_beside(folder: &Path, target: &Path) -> Result<tempfile::NamedTempFile, String> {
     let mut prefix = std::ffi::OsString::from(".");
     prefix.push(target.file_name().unwrap_or_default());
     prefix.push(".");
@@ -92,7 +93,13 @@ fn temporary_beside(folder: &Path, target: &Path) -> io::Result<tempfile::NamedT
         let mode = fs::metadata(target).map_or(0o666, |m| m.permissions().mode() & 0o777);
         builder.permissions(fs::Permissions::from_mode(mode));
     }
-    builder.tempfile_in(folder)
+    builder.tempfile_in(folder).map_err(|e| match fs::metadata(folder) {
+        Err(why) if why.kind() == io::ErrorKind::NotFound => {
+            format!("there is no folder {}", folder.display())
+        }
+        Ok(kind) if !kind.is_dir() => format!("{} is no folder", folder.display()),
+        _ => format!("the folder {} takes no new file: {}", folder.display(), e.kind()),
+    })
 }
 
 /// Makes the rename last through a power cut, where folders can be synchronised; elsewhere the file is whole anyway.
@@ -139,10 +146,17 @@ mod tests {
         let ok = |_: &mut File| Ok(());
         assert!(write_atomic(dir.path(), ok).unwrap_err().to_string().ends_with("it is a folder"));
         assert!(check_writable(dir.path()).unwrap_err().to_string().ends_with("it is a folder"));
-        assert_eq!(
-            check_writable(dir.path().join("none/a.png")).unwrap_err().kind(),
-            crate::ErrorKind::CannotWrite
+        let (none, file) = (dir.path().join("none"), dir.path().join("file"));
+        let e = check_writable(none.join("a.png")).unwrap_err();
+        assert_eq!(e.kind(), crate::ErrorKind::CannotWrite);
+        assert!(
+            e.to_string().ends_with(&format!("cannot write: there is no folder {}", none.display())),
+            "{e}"
         );
+        fs::write(&file, "").unwrap();
+        let e = check_writable(file.join("a.png")).unwrap_err();
+        assert!(e.to_string().ends_with(&format!("cannot write: {} is no folder", file.display())), "{e}");
+        fs::remove_file(file).unwrap();
         check_writable(dir.path().join("a.png")).unwrap();
         assert_eq!(names(dir.path()), [""; 0]);
         let e = write_atomic(&dir.path().join("none/out.png"), ok).unwrap_err();

@@ -449,3 +449,13 @@ fn no_link_leads_out_and_no_pipe_is_opened() {
     load_uri(root, "near.bin").unwrap();
     assert!(load_scene(root.join("alias/scene.gltf"), &LoadOptions::default()).is_ok());
 }
+
+#[test]
+fn a_flood_of_warnings_is_told_briefly() {
+    let mut g = Gltf::triangle();
+    g.doc["extensionsUsed"] = (0..20_000).map(|i| json!(format!("EXT_{i}"))).collect();
+    let lines = g.load().unwrap().warnings;
+    assert_eq!(lines.len(), 51);
+    assert!(lines[0].contains("EXT_0 ") && lines[49].contains("EXT_49 "), "{lines:?}");
+    assert_eq!(lines[50], "and 19950 more kinds of warnings");
+}

@@ -4,6 +4,7 @@ use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
 use lumbre_cpu::CpuBackend;
+use lumbre_cpu::bvh::{SimdLevel, UnknownSimdLevel};
 use lumbre_scene::CompiledScene;
 use std::ops::Range;
 
@@ -15,6 +16,26 @@ pub enum Device {
     Auto,
     /// All processors of this machine, or those of the rayon pool that calls.
     Cpu,
+}
+
+/// A device cannot be used as it is asked for.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DeviceError {
+    /// The environment variable `LUMBRE_SIMD` holds no known level.
+    #[error(transparent)]
+    SimdLevel(#[from] UnknownSimdLevel),
+}
+
+impl Device {
+    /// Whether the device can be used: what [`prepare`] would find, but before there is a scene.
+    ///
+    /// # Errors
+    /// As [`prepare`].
+    pub fn check(self) -> Result<(), DeviceError> {
+        match self {
+            Device::Auto | Device::Cpu => Ok(SimdLevel::detect().map(drop)?),
+        }
+    }
 }
 
 /// A scene ready to be rendered on some device.
@@ -41,8 +62,39 @@ impl Backend for CpuBackend {
 }
 
 /// Prepares a compiled scene for a device.
-pub fn prepare(scene: CompiledScene, device: Device) -> Box<dyn Backend> {
+///
+/// # Errors
+/// If the environment variable `LUMBRE_SIMD`, which may lower the SIMD level of the CPU, holds no known level.
+pub fn prepare(scene: CompiledScene, device: Device) -> Result<Box<dyn Backend>, DeviceError> {
     match device {
-        Device::Auto | Device::Cpu => Box::new(CpuBackend::new(scene)),
+        Device::Auto | Device::Cpu => Ok(Box::new(prepare_cpu(scene)?)),
+    }
+}
+
+/// Prepares a compiled scene for the CPU, which can do more than any [`Backend`]: take one sample again, step by step.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn prepare_cpu(scene: CompiledScene) -> Result<CpuBackend, DeviceError> {
+    let level = SimdLevel::detect()?;
+    Ok(CpuBackend::new(scene).with_level(level))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumbre_scene::{Scene, compile};
+
+    #[test]
+    fn every_device_says_what_it_is() {
+        for device in [Device::Auto, Device::Cpu] {
+            device.check().unwrap();
+            let scene = compile(&Scene::default()).unwrap().scene;
+            let said = prepare(scene, device).unwrap().device();
+            assert!(
+                said.starts_with("CPU (") && said.contains(SimdLevel::detect().unwrap().name()),
+                "{said}"
+            );
+        }
     }
 }

@@ -8,7 +8,7 @@
 //! let compiled = lumbre::compile(&loaded.scene)?.scene;
 //! let found = lumbre::find_camera(&loaded.scene, &compiled, &CameraOptions::default(), 4.0 / 3.0)?;
 //! let view = View { camera: found.camera, settings: RenderSettings::default(), frame: 0 };
-//! let backend = lumbre::prepare(compiled, Device::Auto);
+//! let backend = lumbre::prepare(compiled, Device::Auto)?;
 //! let mut film = Film::new(800, 600);
 //! lumbre::render(&*backend, &view, 0..64, &mut film, &());
 //! let picture: Vec<u8> = lumbre::output::to_srgb8(&film, Exposure::Auto);
@@ -24,10 +24,10 @@ pub mod light;
 pub mod output;
 pub mod render;
 
-pub use backend::{Backend, Device, prepare};
+pub use backend::{Backend, Device, DeviceError, prepare, prepare_cpu};
 pub use camera::{CameraChoice, CameraOptions, authored_aspect, find_camera};
 pub use cancel::{CancelToken, Watched};
-pub use light::has_light;
+pub use light::{LightKinds, light_kinds};
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
 pub use lumbre_scene::{CompileError, Compiled, compile};
 pub use render::render;

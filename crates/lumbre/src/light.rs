@@ -1,13 +1,45 @@
-//! Whether anything in a scene gives light.
+//! What in a scene gives light.
 
 use lumbre_core::Rgb;
-use lumbre_scene::{Background, Environment, Scene};
+use lumbre_scene::{Background, Environment, LightId, Material, MeshId, Scene};
 
-/// Whether a scene has a light that shines: an emissive surface or a punctual light that a root reaches, a sun, or a
-/// background that is not black. Unlit surfaces show themselves but light nothing, so they do not count.
-pub fn has_light(scene: &Scene) -> bool {
-    environment_shines(&scene.environment)
-        || scene.world_nodes().iter().any(|(id, _)| node_shines(scene, id.index()))
+/// Which kinds of light a scene has. Of surfaces and punctual lights those count that a root reaches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightKinds {
+    /// A background that is not black, or a sun.
+    pub distant: bool,
+    /// A punctual light.
+    pub punctual: bool,
+    /// A surface that emits.
+    pub emissive: bool,
+    /// A surface that shows itself but lights nothing.
+    pub unlit: bool,
+}
+
+impl LightKinds {
+    /// Whether anything lights the scene; unlit surfaces do not.
+    pub fn any(self) -> bool {
+        self.distant || self.punctual || self.emissive
+    }
+
+    /// Whether emissive surfaces are all that lights the scene.
+    pub fn only_emissive(self) -> bool {
+        self.emissive && !self.distant && !self.punctual
+    }
+}
+
+/// Finds the kinds of light of a scene.
+pub fn light_kinds(scene: &Scene) -> LightKinds {
+    let mut kinds = LightKinds { distant: environment_shines(&scene.environment), ..LightKinds::default() };
+    for (id, _) in scene.world_nodes() {
+        let node = &scene.nodes[id.index()];
+        kinds.punctual |= node.light.is_some_and(|l| light_shines(scene, l));
+        for material in node.mesh.into_iter().flat_map(|m| materials(scene, m)) {
+            kinds.unlit |= material.unlit;
+            kinds.emissive |= !material.unlit && shines(material.emission);
+        }
+    }
+    kinds
 }
 
 fn shines(c: Rgb) -> bool {
@@ -24,19 +56,23 @@ fn environment_shines(environment: &Environment) -> bool {
     (background && environment.strength > 0.0) || environment.sun.is_some_and(|s| shines(s.irradiance))
 }
 
-fn node_shines(scene: &Scene, node: usize) -> bool {
-    let node = &scene.nodes[node];
-    let light = node.light.and_then(|l| scene.lights.get(l.index()));
-    let mesh = node.mesh.and_then(|m| scene.meshes.get(m.index()));
-    let mut materials = mesh.into_iter().flat_map(|m| &m.primitives).filter_map(|p| p.material);
-    light.is_some_and(|l| shines(l.intensity))
-        || materials.any(|m| scene.materials.get(m.index()).is_some_and(|m| shines(m.emission) && !m.unlit))
+fn light_shines(scene: &Scene, light: LightId) -> bool {
+    scene.lights.get(light.index()).is_some_and(|l| shines(l.intensity))
+}
+
+fn materials(scene: &Scene, mesh: MeshId) -> impl Iterator<Item = &Material> {
+    let primitives = scene.meshes.get(mesh.index()).into_iter().flat_map(|m| &m.primitives);
+    primitives.filter_map(|p| scene.materials.get(p.material?.index()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lumbre_scene::{Light, LightId, LightKind, Material, Mesh, Node, Primitive, Sun};
+    use lumbre_scene::{Light, LightKind, Mesh, Node, Primitive, Sun};
+
+    fn has_light(scene: &Scene) -> bool {
+        light_kinds(scene).any()
+    }
 
     #[test]
     fn every_kind_of_light_counts_and_nothing_else() {
@@ -60,7 +96,7 @@ mod tests {
         let mut scene = Scene { lights: vec![light], nodes: vec![node.clone()], ..Scene::default() };
         assert!(!has_light(&scene), "no root reaches the node");
         scene.add_root(node);
-        assert!(has_light(&scene));
+        assert_eq!(light_kinds(&scene), LightKinds { punctual: true, ..LightKinds::default() });
     }
 
     #[test]
@@ -71,9 +107,13 @@ mod tests {
         let primitive = Primitive { material: Some(id), ..Primitive::default() };
         let mesh = scene.add_mesh(Mesh { name: String::new(), primitives: vec![primitive] });
         scene.add_root(Node { mesh: Some(mesh), ..Node::default() });
+        assert_eq!(light_kinds(&scene), LightKinds { unlit: true, ..LightKinds::default() });
         assert!(!has_light(&scene));
         material.unlit = false;
         scene.materials[0] = material;
-        assert!(has_light(&scene));
+        assert_eq!(light_kinds(&scene), LightKinds { emissive: true, ..LightKinds::default() });
+        assert!(has_light(&scene) && light_kinds(&scene).only_emissive());
+        scene.environment.background = Background::Gradient;
+        assert!(!light_kinds(&scene).only_emissive());
     }
 }

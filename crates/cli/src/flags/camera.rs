@@ -1,6 +1,6 @@
 //! Flags on where the picture is taken from.
 
-use super::values::{fov, vec3};
+use super::values::{fov, joined, vec3};
 use crate::exit::Failure;
 use clap::Args;
 use lumbre::core::math::Vec3;
@@ -42,6 +42,23 @@ impl CameraArgs {
             look_at: self.look_at,
             fov: self.fov.map(f32::to_radians),
         })
+    }
+
+    /// Names and values of the flags that were given, for the metadata of a file.
+    pub(crate) fn described(&self) -> Vec<(&'static str, String)> {
+        let camera = self.camera.as_ref().and_then(|c| match c {
+            CameraChoice::Default => None,
+            CameraChoice::Index(i) => Some(i.to_string()),
+            CameraChoice::Name(name) => Some(name.clone()),
+        });
+        let point = |p: Vec3| joined(&p.to_array());
+        let all = [
+            ("camera", camera),
+            ("lookFrom", self.look_from.map(point)),
+            ("lookAt", self.look_at.map(point)),
+            ("fov", self.fov.map(|f| f.to_string())),
+        ];
+        all.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
     }
 }
 

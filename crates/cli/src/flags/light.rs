@@ -1,6 +1,6 @@
 //! Flags on light from far away, in the place of what the scene brings.
 
-use super::values::{Sky, SunFlag, finite, not_negative, sky, sun};
+use super::values::{Sky, SunFlag, file_name, finite, not_negative, sky, sun};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -33,4 +33,19 @@ pub(crate) struct LightArgs {
     #[arg(long, value_name = "X", requires = "env", value_parser = not_negative, allow_hyphen_values = true)]
     #[arg(default_value = "1")]
     pub(crate) env_strength: f32,
+}
+
+impl LightArgs {
+    /// Names and values of the flags that were given, for the metadata of a file.
+    pub(crate) fn described(&self) -> Vec<(&'static str, String)> {
+        let with_env = |value: f32| self.env.as_ref().map(|_| value.to_string());
+        let all = [
+            ("sky", self.sky.map(|s| s.to_string())),
+            ("sun", self.sun.map(|s| s.to_string())),
+            ("env", self.env.as_deref().map(file_name)),
+            ("envRotate", with_env(self.env_rotate)),
+            ("envStrength", with_env(self.env_strength)),
+        ];
+        all.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
+    }
 }

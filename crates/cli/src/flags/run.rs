@@ -32,7 +32,7 @@ pub(crate) enum ProgressFlag {
     Plain,
     /// One JSON object per line on stdout; the last one has the times
     Json,
-    /// Nothing
+    /// No progress (notes and warnings still appear)
     Off,
 }
 

@@ -5,6 +5,7 @@ use lumbre::core::color::{Exposure, srgb_decode_table};
 use lumbre::core::math::Vec3;
 use lumbre::core::settings::RenderSettings;
 use std::fmt;
+use std::path::Path;
 
 /// Columns and rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +44,17 @@ pub(crate) fn not_negative(text: &str) -> Result<f32, String> {
 
 fn numbers(text: &str) -> Result<Vec<f32>, String> {
     text.split(',').map(finite).collect()
+}
+
+/// Numbers as they stand on the command line.
+pub(crate) fn joined(numbers: &[f32]) -> String {
+    let words: Vec<String> = numbers.iter().map(f32::to_string).collect();
+    words.join(",")
+}
+
+/// The name of a file without its folders, which tell of the machine and not of the picture.
+pub(crate) fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// `x,y,z`.
@@ -130,6 +142,16 @@ pub(crate) enum Sky {
     Off,
 }
 
+impl fmt::Display for Sky {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Sky::Color(c) => f.write_str(&joined(&c.to_array())),
+            Sky::Gradient => f.write_str("gradient"),
+            Sky::Off => f.write_str("off"),
+        }
+    }
+}
+
 /// `R,G,B|#rrggbb|gradient|off`.
 pub(crate) fn sky(text: &str) -> Result<Sky, String> {
     match text {
@@ -165,6 +187,12 @@ impl SunFlag {
     /// Illuminance of the sun beside the gradient sky, whose mean radiance is 1 and which alone gives the ground nearly 4 lux: on a
     /// clear day the sun gives some four to five times as much as the sky.
     pub(crate) const STRENGTH: f32 = 15.0;
+}
+
+impl fmt::Display for SunFlag {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&joined(&[self.elevation_deg, self.azimuth_deg, self.strength]))
+    }
 }
 
 /// `ELEV,AZIM[,STRENGTH]`.

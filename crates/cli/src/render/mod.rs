@@ -11,8 +11,6 @@ use crate::flags::values::Size;
 use crate::interrupt::{self, Phase};
 use crate::progress::{Finish, Reporter, Start};
 use crate::{console, memory};
-use lumbre::cpu::CpuBackend;
-use lumbre::cpu::bvh::SimdLevel;
 use lumbre::prelude::*;
 use lumbre::{Watched, core::control::Control};
 use outputs::Outputs;
@@ -22,7 +20,8 @@ use std::time::Instant;
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<Code, Failure> {
     // Whatever can be known to fail is found before the work begins.
-    let level = SimdLevel::detect().map_err(Failure::usage)?;
+    let (device, why) = args.run.device.choose();
+    device.check()?;
     let outputs = if args.replay.pixel.is_some() { Outputs::none() } else { Outputs::check(args)? };
     let camera = args.camera.options()?;
     if let Some(Size(size)) = args.output.size {
@@ -33,19 +32,23 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Code, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|e| Failure::new(Code::Memory, format!("cannot start the threads: {e}")))?;
     pool.install(|| {
-        let Opened { compiled, camera, size, load_seconds } = scene::open(args, &camera)?;
+        let Opened { compiled, camera, size, sky_added, load_seconds } = scene::open(args, &camera)?;
         memory::check(size, outputs.bytes_per_pixel(), args.run.memory_limit)?;
-        let start = Instant::now();
-        let (_, why) = args.run.device.choose();
-        let backend = CpuBackend::new(compiled).with_level(level);
-        let build_seconds = start.elapsed().as_secs_f64();
-        console::note(format_args!("device: {} ({why})", backend.device()));
-        let job =
-            Job { args, outputs, view: View { camera, settings: args.sampling.settings(), frame: 0 }, size };
-        match args.replay.pixel {
-            Some(pixel) => replay::run(&job, &backend, pixel),
-            None => job.picture(&backend, &cancel, load_seconds, build_seconds),
+        let view = View { camera, settings: args.sampling.settings(), frame: 0 };
+        let job = Job { args, outputs, view, size, sky_added };
+        let say = |backend: &dyn Backend, why| {
+            console::note(format_args!("device: {} ({why})", backend.device()));
+        };
+        if let Some(pixel) = args.replay.pixel {
+            let backend = lumbre::prepare_cpu(compiled)?;
+            say(&backend, "--pixel always runs there");
+            return replay::run(&job, &backend, pixel);
         }
+        let start = Instant::now();
+        let backend = lumbre::prepare(compiled, device)?;
+        let build_seconds = start.elapsed().as_secs_f64();
+        say(&*backend, why);
+        job.picture(&*backend, &cancel, load_seconds, build_seconds)
     })
 }
 
@@ -55,6 +58,7 @@ struct Job<'a> {
     outputs: Outputs,
     view: View,
     size: [u32; 2],
+    sky_added: bool,
 }
 
 impl Job<'_> {
@@ -90,7 +94,9 @@ impl Job<'_> {
         }
         let saturated = report::film(&film);
         let start = Instant::now();
-        self.outputs.write(&film, self.args, interrupted.then_some(done.samples))?;
+        let interrupted_after = interrupted.then_some(done.samples);
+        let metadata = outputs::metadata(self.args, self.sky_added, interrupted_after);
+        self.outputs.write(&film, self.args.output.exposure, &metadata)?;
         let write_seconds = start.elapsed().as_secs_f64();
         reporter.finish(&Finish {
             done,

@@ -2,6 +2,7 @@
 
 use crate::exit::{Code, Failure};
 use crate::flags::render::RenderArgs;
+use crate::flags::values::{Sky, file_name};
 use crate::{console, memory};
 use lumbre::core::Film;
 use lumbre::core::color::Exposure;
@@ -50,19 +51,18 @@ impl Outputs {
         self.0.iter().map(|(_, f)| need(f)).max().unwrap_or(0)
     }
 
-    /// Writes all of them. One that fails does not keep the others from being written. `interrupted` is the number of samples
-    /// after which the render stopped too early.
+    /// Writes all of them. One that fails does not keep the others from being written.
     pub(super) fn write(
         &self,
         film: &Film,
-        args: &RenderArgs,
-        interrupted: Option<u64>,
+        exposure: Exposure,
+        metadata: &[(String, String)],
     ) -> Result<(), Failure> {
         let mut failures = Vec::new();
         for (path, format) in &self.0 {
             let written = match format {
-                Format::Png => write_png(path, film, args.output.exposure),
-                Format::Exr => io::write_exr(path, output::to_exr(film, metadata(args, interrupted))),
+                Format::Png => write_png(path, film, exposure),
+                Format::Exr => io::write_exr(path, output::to_exr(film, metadata.to_vec())),
             };
             match written {
                 Ok(()) => console::note(format_args!("wrote {}", path.display())),
@@ -101,16 +101,25 @@ fn write_png(path: &Path, film: &Film, exposure: Exposure) -> Result<(), io::IoE
     io::write_png(path, film.width(), film.height(), &output::to_srgb8(film, exposure))
 }
 
-/// What made the picture. Nothing that differs from run to run, so that the same command writes the same bytes.
-fn metadata(args: &RenderArgs, interrupted: Option<u64>) -> Vec<(String, String)> {
-    let scene = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let mut all =
-        vec![("lumbre.version".into(), env!("CARGO_PKG_VERSION").into()), ("lumbre.scene".into(), scene)];
-    all.extend(args.sampling.described().into_iter().map(|(name, value)| (format!("lumbre.{name}"), value)));
-    if let Some(samples) = interrupted {
-        all.push(("lumbre.interrupted".into(), format!("after {samples} camera samples")));
+/// What made the picture. Nothing that differs from run to run, so that the same command writes the same bytes. Flags on camera
+/// and light that were not given are left out: the scene decided. `sky_added`: that it had no light and got the gradient.
+/// `interrupted` is the number of samples after which the render stopped too early.
+pub(super) fn metadata(
+    args: &RenderArgs,
+    sky_added: bool,
+    interrupted: Option<u64>,
+) -> Vec<(String, String)> {
+    let mut all = vec![("version", env!("CARGO_PKG_VERSION").into()), ("scene", file_name(&args.scene))];
+    all.extend(args.sampling.described());
+    all.extend(args.camera.described());
+    all.extend(args.light.described());
+    if sky_added {
+        all.push(("sky", Sky::Gradient.to_string()));
     }
-    all
+    if let Some(samples) = interrupted {
+        all.push(("interrupted", format!("after {samples} camera samples")));
+    }
+    all.into_iter().map(|(name, value)| (format!("lumbre.{name}"), value)).collect()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::flags::render::RenderArgs;
 use crate::flags::values::{MAX_SIDE, Size, Sky, SunFlag};
 use lumbre::core::{Camera, Rgb};
 use lumbre::io::Limits;
-use lumbre::scene::{Background, CompiledScene, Environment, Sun};
+use lumbre::scene::{Background, CompiledScene, Environment, Scene, Sun};
 use lumbre::{CameraOptions, LoadOptions};
 use std::time::Instant;
 
@@ -16,6 +16,8 @@ pub(super) struct Opened {
     pub(super) compiled: CompiledScene,
     pub(super) camera: Camera,
     pub(super) size: [u32; 2],
+    /// The scene had no light and got the gradient sky.
+    pub(super) sky_added: bool,
     pub(super) load_seconds: f64,
 }
 
@@ -27,14 +29,7 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
     // Before the costly part: is the camera there?
     let aspect = lumbre::authored_aspect(&loaded.scene, &options.choice).map_err(Failure::usage)?;
     set_environment(&args.light, &mut loaded.scene.environment)?;
-    if !lumbre::has_light(&loaded.scene) {
-        if args.light.sky.is_none() && args.light.env.is_none() && args.light.sun.is_none() {
-            loaded.scene.environment.background = Background::Gradient;
-            console::note("light: nothing in the scene gives any; gradient sky added (--sky off: none)");
-        } else {
-            console::warning("nothing gives light: the picture will be black");
-        }
-    }
+    let sky_added = mind_the_light(&args.light, &mut loaded.scene);
     let compiled = lumbre::compile(&loaded.scene)?;
     compiled.notes.iter().for_each(console::warning);
     let size = match args.output.size {
@@ -48,7 +43,29 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
         console::note("camera: the scene has none; the whole of it is put in view");
     }
     let load_seconds = start.elapsed().as_secs_f64();
-    Ok(Opened { compiled: compiled.scene, camera: found.camera, size, load_seconds })
+    Ok(Opened { compiled: compiled.scene, camera: found.camera, size, sky_added, load_seconds })
+}
+
+/// Gives a scene without any light a gradient sky, unless the flags say what light there is; says what may surprise. Returns
+/// whether the sky was added.
+fn mind_the_light(args: &LightArgs, scene: &mut Scene) -> bool {
+    let kinds = lumbre::light_kinds(scene);
+    let asked = args.sky.is_some() || args.env.is_some() || args.sun.is_some();
+    if kinds.any() {
+        if kinds.only_emissive() && !asked {
+            console::note("light: emissive surfaces only; --sky gradient adds a sky");
+        }
+        return false;
+    }
+    if !asked {
+        scene.environment.background = Background::Gradient;
+        console::note("light: nothing in the scene gives any; gradient sky added (--sky off: none)");
+    } else if kinds.unlit {
+        console::warning("nothing gives light: only unlit surfaces will be seen");
+    } else {
+        console::warning("nothing gives light: the picture will be black");
+    }
+    !asked
 }
 
 /// Rows of a picture for which no size was asked.

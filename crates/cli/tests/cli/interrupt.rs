@@ -67,13 +67,14 @@ fn the_second_interrupt_ends_at_once() {
     let dir = folder();
     // Two perfect mirrors face each other: each path takes 65536 bounces, a tile minutes.
     let mirror = r#"{"pbrMetallicRoughness":{"metallicFactor":1,"roughnessFactor":0}}"#;
-    let mirrors = [square(0.0, 1e6), square(1.0, -1e6)].concat();
+    let mirrors = [square(0.0, 1e3), square(1.0, -1e3)].concat();
     let scene = scene(dir.path(), &[(mirrors, mirror)]);
-    let view =
-        "--look-from 0,0.5,0 --look-at 0,0,0 --fov 0.001 --size 16x16 --max-depth unlimited --roulette off";
+    let view = "--look-from 0,0.5,0 --look-at 0,0,0 --fov 0.001 --size 16x16 --roulette off --sky 1,1,1";
+    let path = lumbre(&format!("render {scene} {view} --max-depth 50 --pixel 8,8")).exits(0).stdout;
+    assert!(path.matches("\nhit").count() > 50, "the path does not stay between the mirrors:\n{path}");
     let out = dir.path().join("a.png");
-    let mut running =
-        Running::start(&format!("render {scene} {view} --sky 1,1,1 --progress json -o {}", out.display()));
+    let words = format!("{scene} {view} --max-depth unlimited --progress json -o {}", out.display());
+    let mut running = Running::start(&format!("render {words}"));
     Running::until(&mut running.stdout, "\"start\"");
     running.signal("-INT");
     Running::until(&mut running.stderr, "stopping at the next tile");

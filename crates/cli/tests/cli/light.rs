@@ -41,6 +41,30 @@ fn a_scene_without_light_gets_the_gradient_sky_and_is_told() {
 }
 
 #[test]
+fn lamps_alone_bring_a_hint() {
+    let dir = folder();
+    let hint = "light: emissive surfaces only; --sky gradient adds a sky";
+    let run = |scene: &str, more: &str| exr(dir.path(), &format!("{scene} --size 4x3 --spp 1 {more}")).0;
+    let said = run(CORNELL, "").says(hint).stderr;
+    assert_eq!(said.matches("light: ").count(), 1, "{said}");
+    for light in ["--sky gradient", "--sky off", "--sun 40,10"] {
+        run(CORNELL, light).does_not_say(hint);
+    }
+    run(&floor(dir.path()), "").does_not_say(hint);
+}
+
+#[test]
+fn unlit_surfaces_are_not_black() {
+    const UNLIT: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1]},"extensions":{"KHR_materials_unlit":{}}}"#;
+    let dir = folder();
+    let scene = scene(dir.path(), &[(square(0.0, 4.0), UNLIT)]);
+    let words = format!("{scene} {DOWN} --sky off");
+    let (run, _) = exr(dir.path(), &words);
+    run.says("nothing gives light: only unlit surfaces will be seen").does_not_say("black");
+    assert!(mean(&picture(dir.path(), &words)).g > 0.4);
+}
+
+#[test]
 fn the_sun_has_a_place_a_strength_and_a_colour() {
     let dir = folder();
     let scene = floor(dir.path());

@@ -26,6 +26,32 @@ fn exr_has_layers_and_what_made_it() {
 }
 
 #[test]
+fn exr_says_which_camera_and_light_made_it() {
+    let dir = folder();
+    let of = |words: &str| {
+        let metadata = exr(dir.path(), &format!("{words} --size 4x4 --spp 1")).1.metadata;
+        let names = ["camera", "lookFrom", "lookAt", "fov", "sky", "sun", "env", "envRotate", "envStrength"];
+        let find = |n: &str| metadata.iter().find(|(m, _)| *m == format!("lumbre.{n}"));
+        names.into_iter().filter_map(|n| Some(format!("{n}={}", find(n)?.1))).collect::<Vec<_>>()
+    };
+    assert_eq!(of(SMOOTH), [""; 0], "the scene decides");
+    assert_eq!(
+        of(&format!(
+            "{SMOOTH} --camera 0 --look-from 1,2.5,-3 --look-at 0,0.1,0 --fov 33.3 --sky #ff0000 --sun 40,-10"
+        )),
+        ["camera=0", "lookFrom=1,2.5,-3", "lookAt=0,0.1,0", "fov=33.3", "sky=1,0,0", "sun=40,-10,15"]
+    );
+    let env = dir.path().join("env.exr");
+    exr(dir.path(), &format!("{SMOOTH} --size 4x2 --spp 1"));
+    std::fs::rename(dir.path().join("test.exr"), &env).unwrap();
+    let lit = format!("{SMOOTH} --env {} --env-rotate 90", env.display());
+    assert_eq!(of(&lit), ["env=env.exr", "envRotate=90", "envStrength=1"]);
+    let dark = scene(dir.path(), &[(square(0.0, 1.0), GREY)]);
+    assert_eq!(of(&dark), ["sky=gradient"], "added, since the scene has no light");
+    assert_eq!(of(&format!("{dark} --sky off")), ["sky=off"]);
+}
+
+#[test]
 fn several_outputs_are_one_render() {
     let dir = folder();
     let d = dir.path().display();
@@ -70,7 +96,11 @@ fn exposure_makes_png_brighter_or_darker() {
 fn a_picture_that_cannot_be_written_is_refused_before_the_work() {
     let dir = folder();
     let long = format!("render {CORNELL} --spp 1000000 -o {}", dir.path().display());
-    lumbre(&format!("{long}/none/a.png")).exits(74).says("cannot write: No such file");
+    let missing = dir.path().join("none").display().to_string();
+    lumbre(&format!("{long}/none/a.png"))
+        .exits(74)
+        .says(&format!("cannot write: there is no folder {missing}\n"))
+        .does_not_say(".a.png.");
     lumbre(&long).exits(2).says("the output is a .png or .exr");
     lumbre(&format!("{long}/a.jpg")).exits(2).says("the output is a .png or .exr");
     std::fs::create_dir(dir.path().join("b.png")).unwrap();

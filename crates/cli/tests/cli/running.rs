@@ -34,9 +34,15 @@ fn the_same_bits_at_every_simd_level() {
             println!("skipped: this processor has no {}", level.name());
         }
     }
-    let mut c = command();
-    c.env("LUMBRE_SIMD", "mmx").args(["render", CORNELL, "-o", "a.png"]);
-    Run::from(c.output().unwrap()).exits(2).says("LUMBRE_SIMD");
+    let with = |level: &str, words: &[&str]| {
+        let mut c = command();
+        c.env("LUMBRE_SIMD", level).arg("render").args(words);
+        Run::from(c.output().unwrap())
+    };
+    with("portable", &[CORNELL, "--pixel", "1,1"]).exits(0).says("device: CPU (portable,");
+    // Before the scene is looked for.
+    with("mmx", &["none.glb", "-o", "a.png"]).exits(2).says("LUMBRE_SIMD");
+    with("mmx", &["none.glb", "--pixel", "1,1"]).exits(2).says("LUMBRE_SIMD");
 }
 
 #[test]
@@ -76,7 +82,10 @@ fn progress_is_words_or_nothing() {
     for plain in ["", "--progress auto", "--progress plain"] {
         assert_eq!(said(plain).says("render: ").does_not_say("\u{1b}").stdout, "");
     }
-    said("--progress off").does_not_say("render: ");
+    said("--progress off").does_not_say("render: ").says("device: ");
+    let help = lumbre("render --help").exits(0).stdout;
+    let help: Vec<&str> = help.split_whitespace().collect();
+    assert!(help.join(" ").contains("No progress (notes and warnings still appear)"));
 }
 
 #[test]

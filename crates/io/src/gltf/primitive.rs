@@ -7,6 +7,7 @@ use glam::{Vec2, Vec3, Vec4};
 use gltf::json::mesh::{Mode, Semantic};
 use gltf::json::validation::Checked;
 use lumbre_scene::{MaterialId, Primitive};
+use std::collections::HashMap;
 
 /// Reads a primitive that stands at `place`; `None` if it has no triangles.
 pub(super) fn load(
@@ -157,17 +158,29 @@ fn triangle_list(mode: Mode, corners: Vec<u32>, place: &str, warnings: &mut Warn
     }
 }
 
-/// Renumbers the vertices in the order of their first use; returns the old number of each.
+/// Renumbers the vertices in the order of their first use; returns the old number of each. Where few of many are used, the
+/// cost is that of the used ones: many primitives may share one accessor.
 fn compact(indices: &mut [u32], count: usize) -> Vec<u32> {
-    let mut new_of_old = vec![u32::MAX; count];
+    const FEW: usize = 8;
     let mut old_of_new = Vec::new();
-    for index in indices {
-        let new = &mut new_of_old[*index as usize];
-        if *new == u32::MAX {
-            *new = old_of_new.len() as u32;
-            old_of_new.push(*index);
+    let mut fresh = |old: u32| {
+        old_of_new.push(old);
+        old_of_new.len() as u32 - 1
+    };
+    if indices.len() < count / FEW {
+        let mut new_of_old = HashMap::new();
+        for index in indices {
+            *index = *new_of_old.entry(*index).or_insert_with_key(|old| fresh(*old));
         }
-        *index = *new;
+    } else {
+        let mut new_of_old = vec![u32::MAX; count];
+        for index in indices {
+            let new = &mut new_of_old[*index as usize];
+            if *new == u32::MAX {
+                *new = fresh(*index);
+            }
+            *index = *new;
+        }
     }
     old_of_new
 }
@@ -237,9 +250,12 @@ mod tests {
 
     #[test]
     fn unused_vertices_are_dropped() {
-        let mut indices = vec![7, 3, 7, 9, 3, 7];
-        assert_eq!(compact(&mut indices, 10), [7, 3, 9]);
-        assert_eq!(indices, [0, 1, 0, 2, 1, 0]);
+        // The second is more than could be listed one by one in a test.
+        for count in [10, u32::MAX as usize - 1] {
+            let mut indices = vec![7, 3, 7, 9, 3, 7];
+            assert_eq!(compact(&mut indices, count), [7, 3, 9], "{count}");
+            assert_eq!(indices, [0, 1, 0, 2, 1, 0]);
+        }
     }
 
     #[test]
