@@ -177,10 +177,11 @@ impl Shot<'_> {
     fn sample(&self, pixel: [u32; 2], index: u32, observer: &mut impl PathObserver) -> FilmSample {
         let settings = &self.view.settings;
         let sampler = Sampler::new(settings.sampler, settings.seed, self.view.frame, pixel, index);
-        let u = sampler.camera();
-        let offset = self.filter.sample(u.filter);
+        let offset = self.filter.sample(sampler.filter());
         let film = [0, 1].map(|i| (pixel[i] as f32 + 0.5 + offset[i]) / self.size[i] as f32);
-        let ray = self.view.camera.ray(film, u.lens, 0.0);
+        let camera = &self.view.camera;
+        let lens = if camera.lens_radius > 0.0 { sampler.lens() } else { [0.5; 2] };
+        let ray = camera.ray(film, lens, 0.0);
         path::radiance(&self.tracer, ray, self.media, &sampler, observer)
     }
 }

@@ -8,7 +8,6 @@ use lumbre_core::distribution::sample_cdf;
 use lumbre_core::light::sun::SunDisc;
 use lumbre_core::light::triangle::TriangleLight;
 use lumbre_core::light::{directional, point, spot};
-use lumbre_core::sampler::LightPointSample;
 use lumbre_core::{Rgb, Spectrum};
 use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::lights::{PunctualRecord, TriangleLightRecord, kind};
@@ -44,9 +43,21 @@ pub fn sun(scene: &CompiledScene) -> SunDisc {
     SunDisc { direction: s.direction.into(), one_minus_cos: s.one_minus_cos, radiance: s.radiance }
 }
 
+/// Below this probability a light leaves too few digits of the number that chose it for a point on it.
+const FEW_DIGITS: f32 = 1.0 / 4096.0;
+
 /// Draws a light and a point on it, as seen from `p`. `None`: no light, or one that gives nothing here.
-pub fn sample_light(scene: &CompiledScene, p: Vec3, u: &LightPointSample) -> Option<LightSample> {
-    let choice = sample_cdf(&scene.light_cdf, u.light)?;
+///
+/// The first number of `point` chooses the light, and what is left of it the point: so a lamp of many triangles is stratified as a whole. For
+/// a light of small probability `fine` gives that coordinate anew.
+pub fn sample_light(
+    scene: &CompiledScene,
+    p: Vec3,
+    point: [f32; 2],
+    fine: impl FnOnce() -> f32,
+) -> Option<LightSample> {
+    let choice = sample_cdf(&scene.light_cdf, point[0])?;
+    let u = [if choice.probability < FEW_DIGITS { fine() } else { choice.remainder }, point[1]];
     let record = scene.lights[choice.index];
     let prob = choice.probability;
     let light = choice.index as u32;
@@ -61,18 +72,18 @@ pub fn sample_light(scene: &CompiledScene, p: Vec3, u: &LightPointSample) -> Opt
     match record.kind {
         kind::TRIANGLE => {
             let (wi, end, radiance, pdf) =
-                sample_triangle(scene, &scene.triangle_lights[record.index as usize], p, u.point)?;
+                sample_triangle(scene, &scene.triangle_lights[record.index as usize], p, u)?;
             Some(LightSample { light, wi, end, radiance, pdf: prob * pdf, is_delta: false })
         }
         kind::SUN => {
             let sun = sun(scene);
-            let wi = sun.sample(u.point);
+            let wi = sun.sample(u);
             let pdf = lumbre_core::warp::uniform_cone_pdf(sun.one_minus_cos);
             Some(far(wi, pdf, sun.radiance))
         }
         kind::ENVIRONMENT => {
             let environment = scene.environment_light();
-            let (wi, pdf) = environment.sample(u.point)?;
+            let (wi, pdf) = environment.sample(u)?;
             Some(far(wi, pdf, environment.radiance(wi)))
         }
         _ => sample_punctual(record.kind, &scene.punctual_lights[record.index as usize], p).map(|s| {

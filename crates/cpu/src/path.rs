@@ -118,8 +118,9 @@ impl<O: PathObserver> Path<'_, '_, O> {
                 self.add_light(&it, &surface, wo_local);
             }
             // Sample the BSDF.
-            let u = self.sampler.direction(self.depth);
-            let Some(s) = surface.bsdf.sample(wo_local, u.lobe, u.direction, TransportMode::Radiance) else {
+            let lobe = if surface.bsdf.has_one_lobe() { 0.0 } else { self.sampler.lobe(self.depth) };
+            let direction = self.sampler.direction(self.depth);
+            let Some(s) = surface.bsdf.sample(wo_local, lobe, direction, TransportMode::Radiance) else {
                 return self.end("the surface absorbs", first_hit);
             };
             let wi = surface.frame.to_world(s.wi).normalize();
@@ -130,7 +131,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
             }
             self.step(&it, &surface, &s, wi);
             // Play roulette.
-            if self.beta.is_black() || !self.survives(u.roulette) {
+            if self.beta.is_black() || !self.survives() {
                 return self.end("absorbed", first_hit);
             }
         }
@@ -213,7 +214,11 @@ impl<O: PathObserver> Path<'_, '_, O> {
     /// Next-event estimation.
     fn add_light(&mut self, it: &Interaction, surface: &Surface, wo_local: Vec3) {
         let scene = self.tracer.scene;
-        let Some(light) = sample_light(scene, it.p, &self.sampler.light(self.depth)) else { return };
+        let Some(light) = sample_light(scene, it.p, self.sampler.light_point(self.depth), || {
+            self.sampler.light(self.depth)
+        }) else {
+            return;
+        };
         let wi_local = surface.frame.to_local(light.wi);
         // Reflection and transmission are told apart by the shading normal; the geometric one must agree.
         let reflects = light.wi.dot(surface.ng) > 0.0;
@@ -291,13 +296,14 @@ impl<O: PathObserver> Path<'_, '_, O> {
     }
 
     /// Russian roulette on the throughput, without the scaling that refraction will undo.
-    fn survives(&mut self, u: f32) -> bool {
+    fn survives(&mut self) -> bool {
         let Some(first) = self.tracer.settings.roulette else { return true };
         if self.depth < first {
             return true;
         }
         let survival = (self.beta.max_component() / self.eta_scale).min(MAX_SURVIVAL);
-        let survived = u < survival;
+        // The event has been counted already.
+        let survived = self.sampler.roulette(self.depth - 1) < survival;
         self.observer.event(PathEvent::Roulette { survival, survived });
         if survived {
             self.beta *= 1.0 / survival;

@@ -55,7 +55,7 @@ pub fn integral(kind: SamplerKind, samples: &[u32], keys: u32) -> Series {
     let rmse = |n: u32| {
         let square = |key: u32| {
             let value = |i: u32| {
-                let [x, y] = Sampler::new(kind, n, 0, [key, 3], i).direction(0).direction;
+                let [x, y] = Sampler::new(kind, n, 0, [key, 3], i).direction(0);
                 f(x) * f(y)
             };
             ((0..n).map(value).sum::<f64>() / f64::from(n) - 1.0).powi(2)

@@ -22,8 +22,8 @@ pub struct Furnace {
 pub fn furnace(bsdf: &Bsdf, wo: Vec3, n: u32) -> Furnace {
     let mut out = Furnace::default();
     for k in 0..n {
-        let d = Sampler::new(SamplerKind::Sobol, 7, 0, [3, 5], k).direction(0);
-        let Some(s) = bsdf.sample(wo, d.lobe, d.direction, TransportMode::Radiance) else { continue };
+        let u = Sampler::new(SamplerKind::Sobol, 7, 0, [3, 5], k);
+        let Some(s) = bsdf.sample(wo, u.lobe(0), u.direction(0), TransportMode::Radiance) else { continue };
         let weight: Spectrum = s.weight / s.eta_scale;
         out.largest = out.largest.max(f64::from(weight.max_component()));
         for band in 0..3 {

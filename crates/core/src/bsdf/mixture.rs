@@ -248,6 +248,12 @@ impl Bsdf {
         (pdf > 0.0).then(|| BsdfSample { weight: f / pdf, pdf, ..sample })
     }
 
+    /// True for a plain Lambert surface: `sample` does not look at the number that chooses a lobe.
+    #[inline]
+    pub fn has_one_lobe(&self) -> bool {
+        !self.is_mixed() && matches!(&self.first.model, Model::Base(base) if base.is_lambert())
+    }
+
     /// False when every lobe is a delta: light sampling has nothing to find here.
     #[inline]
     pub fn has_smooth_lobes(&self) -> bool {

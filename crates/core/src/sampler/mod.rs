@@ -1,9 +1,19 @@
 //! The one random stream: a camera sample is a pure function of (frame, pixel, sample index, dimension, seed), the same
 //! integers on both backends.
 //!
-//! The dimensions are a fixed table. They are read in sets of at most four, each set a small Owen-scrambled Sobol sequence of
-//! its own (padding): two-dimensional quantities that belong together (a direction, a point on a light) always come from
-//! one set. Inserting a dimension would change every reference picture, so room for what is to come is kept.
+//! The dimensions are a fixed table. They are read in sets of four, each set a small Owen-scrambled Sobol sequence of its own
+//! (padding): two-dimensional quantities (a direction, a point on a light) always come from one set, and those that follow one
+//! another on a path share it: the place in the pixel and the point on the light seen from the first vertex; the direction from
+//! a vertex and the point on the light seen from the next. Only the numbers that are asked for are scrambled. Inserting a dimension would
+//! change every reference picture, so room for what is to come is kept.
+//!
+//! | set | its four dimensions |
+//! |---|---|
+//! | 0 | filter x, y; point on the light from vertex 0, x, y |
+//! | 1 | lens x, y; time; wavelength |
+//! | 2 + 3k | direction from vertex k, x, y; point on the light from vertex k + 1, x, y |
+//! | 3 + 3k | lobe; light; roulette; medium distance, at vertex k |
+//! | 4 + 3k | phase function at vertex k, x, y; two to spare |
 
 pub mod sobol;
 
@@ -19,38 +29,9 @@ pub enum SamplerKind {
     Independent,
 }
 
-/// Filter and lens: the first set of a camera sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CameraSample {
-    /// Position within the pixel's filter.
-    pub filter: [f32; 2],
-    /// Position on the lens.
-    pub lens: [f32; 2],
-}
-
-/// The numbers that choose where a path goes on from a vertex.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DirectionSample {
-    /// Direction.
-    pub direction: [f32; 2],
-    /// Which lobe.
-    pub lobe: f32,
-    /// Russian roulette.
-    pub roulette: f32,
-}
-
-/// The numbers that choose a light and a point on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightPointSample {
-    /// Point on the light.
-    pub point: [f32; 2],
-    /// Which light.
-    pub light: f32,
-}
-
-/// Sets before the first vertex: (filter, lens), (time, wavelength).
+/// Sets before the first vertex.
 const CAMERA_SETS: u32 = 2;
-/// Sets of a vertex: (direction, lobe, roulette), (point on light, light, medium distance), (phase, one to spare).
+/// Sets of a vertex.
 const VERTEX_SETS: u32 = 3;
 
 /// The stream of one camera sample.
@@ -69,37 +50,63 @@ impl Sampler {
         Sampler { kind, key, index }
     }
 
-    /// The numbers of the camera ray.
+    /// Position within the pixel's filter.
     #[inline]
-    pub fn camera(&self) -> CameraSample {
-        let s = self.set(0);
-        CameraSample { filter: [s[0], s[1]], lens: [s[2], s[3]] }
+    pub fn filter(&self) -> [f32; 2] {
+        self.set(0).pair(0)
+    }
+
+    /// Position on the lens.
+    #[inline]
+    pub fn lens(&self) -> [f32; 2] {
+        self.set(1).pair(0)
     }
 
     /// Moment in the shutter interval.
     #[inline]
     pub fn time(&self) -> f32 {
-        self.set(1)[0]
+        self.set(1).number(2)
     }
 
     /// Wavelength.
     #[inline]
     pub fn wavelength(&self) -> f32 {
-        self.set(1)[1]
+        self.set(1).number(3)
     }
 
-    /// The numbers that send the path on from vertex `k` (0 is the first surface hit).
+    /// Direction in which the path goes on from vertex `k` (0 is the first surface hit).
     #[inline]
-    pub fn direction(&self, k: u32) -> DirectionSample {
-        let s = self.set(CAMERA_SETS + VERTEX_SETS * k);
-        DirectionSample { direction: [s[0], s[1]], lobe: s[2], roulette: s[3] }
+    pub fn direction(&self, k: u32) -> [f32; 2] {
+        self.set(CAMERA_SETS + VERTEX_SETS * k).pair(0)
     }
 
-    /// The numbers that pick a point on a light from vertex `k`.
+    /// Point on a light as seen from vertex `k`.
     #[inline]
-    pub fn light(&self, k: u32) -> LightPointSample {
-        let s = self.set(CAMERA_SETS + VERTEX_SETS * k + 1);
-        LightPointSample { point: [s[0], s[1]], light: s[2] }
+    pub fn light_point(&self, k: u32) -> [f32; 2] {
+        self.set(if k == 0 { 0 } else { CAMERA_SETS + VERTEX_SETS * (k - 1) }).pair(2)
+    }
+
+    /// Which lobe scatters at vertex `k`.
+    #[inline]
+    pub fn lobe(&self, k: u32) -> f32 {
+        self.choices(k).number(0)
+    }
+
+    /// Where on a light of small probability, as seen from vertex `k`: see `sample_light` of the backends.
+    #[inline]
+    pub fn light(&self, k: u32) -> f32 {
+        self.choices(k).number(1)
+    }
+
+    /// Russian roulette after vertex `k`.
+    #[inline]
+    pub fn roulette(&self, k: u32) -> f32 {
+        self.choices(k).number(2)
+    }
+
+    #[inline]
+    fn choices(&self, k: u32) -> Set {
+        self.set(CAMERA_SETS + VERTEX_SETS * k + 1)
     }
 
     /// The key that stochastic coverage hashes together with vertex, instance and primitive.
@@ -108,21 +115,47 @@ impl Sampler {
         hash_combine(self.key, self.index ^ 0x5bd1_e995)
     }
 
+    /// One set of the table.
     #[inline]
-    fn set(&self, set: u32) -> [f32; 4] {
-        self.set_bits(set).map(to_unit)
-    }
-
-    /// The raw integers of one set, as both backends must produce them.
-    #[inline]
-    pub fn set_bits(&self, set: u32) -> [u32; 4] {
+    pub fn set(&self, set: u32) -> Set {
         let key = hash_combine(self.key, set);
         match self.kind {
-            SamplerKind::Sobol => sobol::shuffled_scrambled(self.index, key),
+            SamplerKind::Sobol => Set { kind: self.kind, bits: sobol::shuffled(self.index, key), key },
             SamplerKind::Independent => {
-                let h = hash_combine(key, self.index);
-                [h, hash_combine(h, 1), hash_combine(h, 2), hash_combine(h, 3)]
+                Set { kind: self.kind, bits: [hash_combine(key, self.index); 4], key }
             }
         }
+    }
+}
+
+/// Four numbers of the stream, of which those are finished that are asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Set {
+    kind: SamplerKind,
+    bits: [u32; 4],
+    key: u32,
+}
+
+impl Set {
+    /// The raw integer of dimension `d` (0 to 3), as both backends must produce it.
+    #[inline]
+    pub fn bits(&self, d: u32) -> u32 {
+        let bits = self.bits[d as usize];
+        match self.kind {
+            SamplerKind::Sobol => sobol::scrambled(bits, self.key, d),
+            SamplerKind::Independent => hash_combine(bits, d),
+        }
+    }
+
+    /// Dimension `d` as a number in [0, 1).
+    #[inline]
+    pub fn number(&self, d: u32) -> f32 {
+        to_unit(self.bits(d))
+    }
+
+    /// Dimensions `d` and `d + 1`.
+    #[inline]
+    pub fn pair(&self, d: u32) -> [f32; 2] {
+        [self.number(d), self.number(d + 1)]
     }
 }

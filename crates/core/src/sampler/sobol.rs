@@ -4,7 +4,7 @@
 //! four dimensions of their table D(6). Scrambling and shuffling: Burley 2020, "Practical Hash-based Owen Scrambling" (JCGT
 //! 9.4), with the improved hash constants of Vegdahl 2021, "Building a Better LK Hash".
 
-use crate::hash::{hash_combine, hash_u32};
+use crate::hash::hash_combine;
 
 /// Primitive polynomials (degree, interior coefficients) and initial direction numbers of dimensions 1 to 3.
 const POLYNOMIALS: [(usize, u32, [u32; 3]); 3] = [(1, 0, [1, 0, 0]), (2, 1, [1, 3, 0]), (3, 1, [1, 3, 1])];
@@ -98,17 +98,17 @@ fn laine_karras(mut x: u32, seed: u32) -> u32 {
     x ^ x.wrapping_mul(0x53a2_2864)
 }
 
-/// Point `index` of the Sobol sequence with its order shuffled and its digits scrambled (nested uniform scrambles, Owen 1995),
-/// both by `key`. Every aligned power-of-two block of indices stays a scrambled Sobol net.
+/// Point `index` of the Sobol sequence in an order shuffled by `key` (nested uniform scramble of the index, Owen 1995), its coordinates
+/// not yet scrambled and their bits reversed. Every aligned power-of-two block of indices stays a Sobol net.
 #[inline]
-pub fn shuffled_scrambled(index: u32, key: u32) -> [u32; 4] {
-    let mut x = sobol_reversed(laine_karras(index.reverse_bits(), key));
-    let mut seed = hash_u32(key ^ 0xa511_e9b3);
-    for v in &mut x {
-        *v = laine_karras(*v, seed).reverse_bits();
-        seed = hash_combine(seed, 0x63d8_3595);
-    }
-    x
+pub(super) fn shuffled(index: u32, key: u32) -> [u32; 4] {
+    sobol_reversed(laine_karras(index.reverse_bits(), key))
+}
+
+/// Coordinate `d` of such a point, scrambled by `key`: a binary fraction.
+#[inline]
+pub(super) fn scrambled(reversed: u32, key: u32, d: u32) -> u32 {
+    laine_karras(reversed, hash_combine(key ^ 0xa511_e9b3, d)).reverse_bits()
 }
 
 #[cfg(test)]
@@ -127,6 +127,19 @@ mod tests {
         assert_eq!(f(6), [0.375, 0.375, 0.625, 0.875]);
     }
 
+    /// Of 64 points of dimensions 2 and 3 no more than two fall into any of 8 x 8 cells.
+    #[test]
+    fn the_second_pair_is_stratified_too() {
+        let mut seen = [0; 64];
+        for i in 0..64 {
+            let p = shuffled(i, 5);
+            let [x, y] = [2, 3].map(|d| scrambled(p[d], 5, d as u32));
+            seen[((x >> 29) << 3 | y >> 29) as usize] += 1;
+        }
+        let empty = seen.iter().filter(|&&n| n == 0).count();
+        assert!(empty <= 32 && seen.iter().all(|&n| n <= 2), "{seen:?}");
+    }
+
     /// Every pair of the first two dimensions is a (0, m, 2)-net in each aligned block, scrambled or not.
     #[test]
     fn blocks_are_nets() {
@@ -136,7 +149,7 @@ mod tests {
                     let (a, b) = (log, 8 - log);
                     let mut seen = [false; 256];
                     for i in 0..256 {
-                        let p = shuffled_scrambled(block * 256 + i, key);
+                        let p = [0, 1].map(|d| scrambled(shuffled(block * 256 + i, key)[d], key, d as u32));
                         let x = if a == 0 { 0 } else { p[0] >> (32 - a) };
                         let y = if b == 0 { 0 } else { p[1] >> (32 - b) };
                         let cell = ((x << b) | y) as usize;

@@ -6,7 +6,6 @@ use lumbre_core::hash::unit;
 use lumbre_core::light::environment::{EnvironmentLight, build_distribution};
 use lumbre_core::light::sun::SunDisc;
 use lumbre_core::light::triangle::TriangleLight;
-use lumbre_core::sampler::LightPointSample;
 use lumbre_core::{Frame, Rgb};
 use lumbre_cpu::light_sampling::{
     LightSample, pdf_environment, pdf_sun, pdf_triangle, sample_light, triangle,
@@ -283,8 +282,7 @@ fn lit_scene() -> CompiledScene {
 }
 
 fn draw_light(scene: &CompiledScene, p: Vec3, k: u32, stream: u32) -> Option<LightSample> {
-    let u = LightPointSample { light: unit(k, 900 + stream), point: point(k, stream) };
-    sample_light(scene, p, &u)
+    sample_light(scene, p, point(k, stream), || unit(k, 900 + stream))
 }
 
 /// Density of all lights together in a direction; `wrong` scales that of one light.
