@@ -3,9 +3,6 @@
 use crate::common::*;
 
 /// Reflects all light, the same in all directions.
-const WHITE: &str = r#"{"pbrMetallicRoughness":{"metallicFactor":0},
-    "extensions":{"KHR_materials_specular":{"specularFactor":0}}}"#;
-
 #[test]
 fn a_replayed_path_is_the_one_in_the_picture() {
     let dir = folder();
@@ -39,10 +36,11 @@ fn a_replay_writes_nothing_and_stays_inside() {
 #[test]
 fn samples_that_are_not_finite_are_counted_and_named() {
     let dir = folder();
-    let floor = scene(dir.path(), &[(square(0.0, 4.0), WHITE)]);
-    // So bright that what is found and what is sampled add up to more than a float holds.
-    let words =
-        format!("{floor} --size 4x4 --spp 8 --look-from 0,1,0.1 --look-at 0,0,0 --sky 3e38,3e38,3e38");
+    // So bright that what is found and what is sampled can add up to more than a float holds.
+    const GLOW: &str = r#"{"pbrMetallicRoughness":{"metallicFactor":0},"emissiveFactor":[1,1,1],"extensions":{
+        "KHR_materials_specular":{"specularFactor":0},"KHR_materials_emissive_strength":{"emissiveStrength":2e38}}}"#;
+    let plates = scene(dir.path(), &[(square(0.0, 4.0), GLOW), (square(2.0, -4.0), GLOW)]);
+    let words = format!("{plates} --size 4x4 --spp 8 --look-from 0,1,0.1 --look-at 0,0,0");
     let (run, image) = exr(dir.path(), &words);
     let run = run.says("samples were not finite and count as black").says("brighter than the film can hold");
     assert!(image.layers.iter().flat_map(|l| &l.channels).flat_map(|(_, v)| v).all(|v| !v.is_nan()));
