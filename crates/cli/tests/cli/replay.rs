@@ -2,7 +2,6 @@
 
 use crate::common::*;
 
-/// Reflects all light, the same in all directions.
 #[test]
 fn a_replayed_path_is_the_one_in_the_picture() {
     let dir = folder();
