@@ -138,23 +138,25 @@ impl Interaction {
         let p = p0 * w[0] + p1 * w[1] + p2 * w[2];
         let extent = [p0, p1, p2].map(|v| (v - p).abs().max_element());
         let ng = unit(key.normal((p1 - p0).cross(p2 - p0)));
-        let [v0, v1, v2] = records.vertices.map(|v| &scene.vertices[v]);
         let mix3 = |a: [f32; 3], b: [f32; 3], c: [f32; 3]| {
             Vec3::from_array(a) * w[0] + Vec3::from_array(b) * w[1] + Vec3::from_array(c) * w[2]
         };
         let mut ns = ng;
         if records.has(attribute::NORMAL) {
-            let n = mix3(v0.normal, v1.normal, v2.normal);
+            let [n0, n1, n2] = records.vertices.map(|v| scene.normals[v]);
+            let n = mix3(n0, n1, n2);
             if n.length_squared() > 1e-12 {
                 ns = unit(key.normal(n));
                 // Normals that disagree with the winding would turn the surface inside out.
                 ns = if ns.dot(ng) < 0.0 { -ns } else { ns };
             }
         }
-        let mut tangent = Vec3::ZERO;
+        let (mut tangent, mut bitangent_sign) = (Vec3::ZERO, 1.0);
         if records.has(attribute::TANGENT) {
+            let [v0, v1, v2] = records.vertices.map(|v| &scene.vertices[v]);
             let t = |v: &Vertex| [v.tangent[0], v.tangent[1], v.tangent[2]];
             tangent = key.vector(mix3(t(v0), t(v1), t(v2)));
+            bitangent_sign = v0.tangent[3] * key.handedness;
         }
         let HitAttributes { uv, color } = records.attributes(scene, w);
         Interaction {
@@ -163,7 +165,7 @@ impl Interaction {
             ng,
             ns,
             tangent,
-            bitangent_sign: v0.tangent[3] * key.handedness,
+            bitangent_sign,
             uv,
             color,
             t: hit.t,

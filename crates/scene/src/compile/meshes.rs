@@ -90,15 +90,16 @@ fn add_mesh(
         first_emissive_rank,
         opaque: u32::from(opaque),
         culls: u32::from(culls),
-        attributes: attributes(&out.vertices[first_vertex..]),
+        attributes: attributes(&out.normals[first_vertex..], &out.vertices[first_vertex..]),
     });
     Ok(())
 }
 
 /// What these vertices have, as bits.
-fn attributes(vertices: &[Vertex]) -> u32 {
+fn attributes(normals: &[[f32; 3]], vertices: &[Vertex]) -> u32 {
     let bit = |has: fn(&Vertex) -> bool, bit: u32| if vertices.iter().any(has) { bit } else { 0 };
-    bit(|v| v.normal != [0.0; 3], attribute::NORMAL)
+    let normal = if normals.iter().any(|n| *n != [0.0; 3]) { attribute::NORMAL } else { 0 };
+    normal
         | bit(|v| v.tangent != [0.0; 4], attribute::TANGENT)
         | bit(|v| v.uv != [[0.0; 2]; 2], attribute::UV)
         | bit(|v| v.color != [1.0; 4], attribute::COLOR)
@@ -145,8 +146,9 @@ fn append(p: &Primitive, material: u32, out: &mut CompiledScene) -> Result<(), C
     let base = index32(out.positions.len(), "vertices")?;
     index32(out.positions.len() + p.positions.len(), "vertices")?;
     out.positions.extend(p.positions.iter().map(|v| v.to_array()));
+    let normal = |i: usize| p.normals.get(i).map_or([0.0; 3], |n| n.normalize_or_zero().to_array());
+    out.normals.extend((0..p.positions.len()).map(normal));
     out.vertices.extend((0..p.positions.len()).map(|i| Vertex {
-        normal: p.normals.get(i).map_or([0.0; 3], |n| n.normalize_or_zero().to_array()),
         tangent: p.tangents.get(i).map_or([0.0; 4], |t| t.to_array()),
         uv: [&p.uv0, &p.uv1].map(|uv| uv.get(i).map_or([0.0; 2], |v| v.to_array())),
         color: p.colors.get(i).map_or([1.0; 4], |c| c.to_array()),

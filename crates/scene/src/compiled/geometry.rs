@@ -4,12 +4,10 @@ use super::NONE;
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 
-/// Attributes of a vertex, object space.
+/// Attributes of a vertex beside position and normal, object space.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Vertex {
-    /// Unit normal; zero: flat shading.
-    pub normal: [f32; 3],
     /// Unit tangent and the sign of the bitangent; zero: none.
     pub tangent: [f32; 4],
     /// Two sets of texture coordinates.

@@ -20,7 +20,10 @@ pub const NONE: u32 = u32::MAX;
 pub struct CompiledScene {
     /// Vertex positions, object space, metres; `vertices` holds the rest of each.
     pub positions: Vec<[f32; 3]>,
-    /// Vertex attributes, as many as `positions`.
+    /// Unit normals, object space, as many as `positions`; zero: flat shading. Apart from the other attributes, which most hits do not
+    /// read: three normals then lie in one or two lines of the cache.
+    pub normals: Vec<[f32; 3]>,
+    /// Further vertex attributes, as many as `positions`.
     pub vertices: Vec<Vertex>,
     /// Vertex indices of each triangle, into the whole of `positions`.
     pub triangles: Vec<[u32; 3]>,
