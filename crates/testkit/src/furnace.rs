@@ -22,8 +22,9 @@ pub struct Furnace {
 pub fn furnace(bsdf: &Bsdf, wo: Vec3, n: u32) -> Furnace {
     let mut out = Furnace::default();
     for k in 0..n {
-        let u = Sampler::new(SamplerKind::Sobol, 7, 0, [3, 5], k);
-        let Some(s) = bsdf.sample(wo, u.lobe(0), u.direction(0), TransportMode::Radiance) else { continue };
+        // Lobe and direction from one set: an integral of three dimensions.
+        let u = Sampler::new(SamplerKind::Sobol, 7, 0, [3, 5], k).set(2);
+        let Some(s) = bsdf.sample(wo, u.number(2), u.pair(0), TransportMode::Radiance) else { continue };
         let weight: Spectrum = s.weight / s.eta_scale;
         out.largest = out.largest.max(f64::from(weight.max_component()));
         for band in 0..3 {
