@@ -39,7 +39,7 @@ const CORNELL: Reference = Reference {
 pub const ALL: [Reference; 3] = [
     CORNELL,
     // Without caustics through glass.
-    Reference { name: "cornell_straight", shadows: TransmissiveShadows::Straight, block: 4, ..CORNELL },
+    Reference { name: "cornell_straight", shadows: TransmissiveShadows::Straight, ..CORNELL },
     Reference { name: "smooth", scene: "smooth.gltf", size: [48, 48], block: 4, ..CORNELL },
 ];
 

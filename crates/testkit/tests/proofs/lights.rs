@@ -361,7 +361,7 @@ fn one_light_that_is_a_little_wrong_is_found() {
     }
 }
 
-/// Lights that cannot be hit are chosen as often as their probability says, by power.
+/// Lights that cannot be hit are chosen as often as their probability says, mostly by power.
 #[test]
 fn lights_are_chosen_by_power() {
     let mut scene = Scene::default();
@@ -389,7 +389,9 @@ fn lights_are_chosen_by_power() {
     let shares: Vec<f64> = (0..4).map(|l| f64::from(scene.prob_light(l))).collect();
     let r = chi_square::compare(&counts, &shares, DRAWS);
     assert!(r.accept(SIGNIFICANCE, TESTS), "{counts:?} {shares:?} {r:?}");
-    assert!((shares[1] / shares[0] - 2.5).abs() < 1e-4, "{shares:?}");
+    // A tenth goes evenly to the lights that are not at a distance; the rest by power.
+    let by_power = |i: usize| shares[i] - 0.1 / 3.0;
+    assert!((by_power(1) / by_power(0) - 2.5).abs() < 1e-3, "{shares:?}");
     let wrong = [shares[0] * 1.02, shares[1] - 0.02 * shares[0], shares[2], shares[3]];
     assert!(!chi_square::compare(&counts, &wrong, DRAWS).accept(SIGNIFICANCE, TESTS));
 }
