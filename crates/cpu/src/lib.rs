@@ -9,6 +9,7 @@ pub mod backend;
 pub mod bvh;
 pub mod interaction;
 pub mod light_sampling;
+mod lobes;
 pub mod observer;
 pub mod path;
 pub mod shadow;

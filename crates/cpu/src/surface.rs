@@ -1,12 +1,14 @@
 //! Materials at a point: textures looked up, the shading frame built, the BSDF made.
 
 use crate::interaction::{HitAttributes, Interaction};
+use crate::lobes;
 use glam::Vec3;
 use lumbre_core::bsdf::{Bsdf, BsdfParams, DiffuseSampling};
 use lumbre_core::medium::{Medium, MediumStack};
 use lumbre_core::{Frame, Rgb, Spectrum};
 use lumbre_scene::CompiledScene;
-use lumbre_scene::compiled::material::{MaterialRecord, flag};
+use lumbre_scene::compiled::NONE;
+use lumbre_scene::compiled::material::{MaterialRecord, TextureUse, flag};
 use lumbre_scene::compiled::texture::{Encoding, Rgba};
 
 /// Everything the integrator asks of a surface.
@@ -78,17 +80,17 @@ impl Surface {
         let material = &scene.materials[it.material as usize];
         let base_color = base_color(scene, material, &it.uv, &it.color).rgb;
         let sides = material.has(flag::SOLID).then(|| media.sides(medium(material, it.material), it.front));
-        let params = bsdf_params(scene, material, &it.uv, base_color);
         let eta = sides.map_or(1.0, |(here, beyond)| beyond.ior / here.ior);
-        let params = BsdfParams { eta, diffuse_sampling, ..params };
+        let mut params =
+            BsdfParams { eta, diffuse_sampling, ..bsdf_params(scene, material, &it.uv, base_color) };
         let ng = if it.front { it.ng } else { -it.ng };
-        Surface {
-            frame: shading_frame(scene, material, it, wo, ng),
-            ng,
-            bsdf: Bsdf::new(&params),
-            base_color,
-            beyond: sides.map(|(_, beyond)| beyond),
+        let normals = ShadingNormals { scene, it, wo, ng };
+        let normal = normals.mapped(&material.normal_texture, material.normal_scale);
+        let mut frame = Frame::from_normal_tangent(normal, it.tangent);
+        if material.lobes != NONE {
+            frame = lobes::add(&scene.lobes[material.lobes as usize], material, &normals, frame, &mut params);
         }
+        Surface { frame, ng, bsdf: Bsdf::new(&params), base_color, beyond: sides.map(|(_, beyond)| beyond) }
     }
 }
 
@@ -118,31 +120,37 @@ pub fn bsdf_params(
 /// Smallest cosine between the shading normal and the viewer.
 const MIN_COS_VIEW: f32 = 1e-3;
 
-/// Shading frame: interpolated normal, turned by the normal map, on the side of the viewer.
-fn shading_frame(
-    scene: &CompiledScene,
-    material: &MaterialRecord,
-    it: &Interaction,
-    wo: Vec3,
-    ng: Vec3,
-) -> Frame {
-    let mut ns = it.ns;
-    if !material.normal_texture.is_none() && it.tangent.length_squared() > 0.0 {
-        let base = Frame::from_normal_tangent(ns, it.tangent);
-        let texel = scene.texture(&material.normal_texture, &it.uv, Encoding::Linear).rgb * 2.0 - Rgb::WHITE;
-        let (x, y) = (texel.r * material.normal_scale, texel.g * material.normal_scale);
-        let mapped = base.t * x + base.b * (y * it.bitangent_sign) + base.n * texel.b;
-        let mapped = mapped.normalize_or(ns);
-        // A map that points below the surface is flattened onto it.
-        ns = if mapped.dot(it.ng) > 0.0 {
-            mapped
-        } else {
-            (mapped - it.ng * mapped.dot(it.ng)).normalize_or(ns)
-        };
+/// What shading normals at a hit are made from.
+pub(crate) struct ShadingNormals<'a> {
+    pub(crate) scene: &'a CompiledScene,
+    pub(crate) it: &'a Interaction,
+    /// Towards the viewer.
+    pub(crate) wo: Vec3,
+    /// Geometric normal on the viewer's side.
+    pub(crate) ng: Vec3,
+}
+
+impl ShadingNormals<'_> {
+    /// The interpolated normal, turned by a normal map if there is one, on the side of the viewer; unit.
+    pub(crate) fn mapped(&self, texture: &TextureUse, scale: f32) -> Vec3 {
+        let it = self.it;
+        let mut ns = it.ns;
+        if !texture.is_none() && it.tangent.length_squared() > 0.0 {
+            let base = Frame::from_normal_tangent(ns, it.tangent);
+            let texel = self.scene.texture(texture, &it.uv, Encoding::Linear).rgb * 2.0 - Rgb::WHITE;
+            let (x, y) = (texel.r * scale, texel.g * scale);
+            let mapped = base.t * x + base.b * (y * it.bitangent_sign) + base.n * texel.b;
+            let mapped = mapped.normalize_or(ns);
+            // A map that points below the surface is flattened onto it.
+            ns = if mapped.dot(it.ng) > 0.0 {
+                mapped
+            } else {
+                (mapped - it.ng * mapped.dot(it.ng)).normalize_or(ns)
+            };
+        }
+        let ns = if it.front { ns } else { -ns };
+        // Interpolated normals may face away from a viewer who sees the triangle: bend them until they do not.
+        let cos = ns.dot(self.wo);
+        if cos < MIN_COS_VIEW { (ns + self.wo * (MIN_COS_VIEW - cos)).normalize_or(self.ng) } else { ns }
     }
-    let ns = if it.front { ns } else { -ns };
-    // Interpolated normals may face away from a viewer who sees the triangle: bend them until they do not.
-    let cos = ns.dot(wo);
-    let ns = if cos < MIN_COS_VIEW { (ns + wo * (MIN_COS_VIEW - cos)).normalize_or(ng) } else { ns };
-    Frame::from_normal_tangent(ns, it.tangent)
 }

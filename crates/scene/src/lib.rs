@@ -12,7 +12,10 @@ pub use authored::camera::{Camera, Projection};
 pub use authored::environment::{Background, Environment, EnvironmentMap, Sun};
 pub use authored::ids::*;
 pub use authored::light::{Light, LightKind};
-pub use authored::material::{AlphaMode, Material, TextureRef, TextureTransform, Volume};
+pub use authored::material::{
+    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Material, Phong, Sheen, TextureRef,
+    TextureTransform, Volume,
+};
 pub use authored::mesh::{Mesh, Primitive};
 pub use authored::node::Node;
 pub use authored::scene::Scene;

@@ -11,7 +11,7 @@ use super::dielectric_base::DielectricBase;
 use super::lambert::DiffuseSampling;
 use super::metal::Metal;
 use super::thin::Thin;
-use super::{BsdfSample, TransportMode};
+use super::{BsdfParams, BsdfSample, TransportMode};
 use crate::fresnel::f0_from_ior;
 use crate::math::{ONE_MINUS_EPSILON, Vec3};
 use crate::rgb::Spectrum;
@@ -21,49 +21,6 @@ const MIN_COS: f32 = 1e-6;
 
 /// Added to each component's albedo when choosing, so that none with weight is ever out of reach.
 const ALBEDO_FLOOR: f32 = 0.05;
-
-/// The values of a material at one point. Factors are clamped to [0, 1]; NaN counts as 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BsdfParams {
-    /// Diffuse albedo, metal reflectance at normal incidence, tint of what is transmitted.
-    pub base_color: Spectrum,
-    /// 0 dielectric, 1 metal.
-    pub metallic: f32,
-    /// Perceptual: α = roughness².
-    pub roughness: f32,
-    /// Index of refraction for the reflection of the opaque base and for thin walls; 0 stands for infinite.
-    pub ior: f32,
-    /// Strength of the opaque base's reflection; 0 leaves exact Lambert.
-    pub specular: f32,
-    /// Tint of the opaque base's reflection at normal incidence, may exceed 1.
-    pub specular_color: Spectrum,
-    /// Share of the base that is replaced by transmission.
-    pub transmission: f32,
-    /// Thin wall rather than the boundary of a solid.
-    pub thin: bool,
-    /// For solids: index on the far side over index on the side of the ray.
-    pub eta: f32,
-    /// How diffuse directions are drawn.
-    pub diffuse_sampling: DiffuseSampling,
-}
-
-impl Default for BsdfParams {
-    /// A rough white dielectric with index 1.5, opaque.
-    fn default() -> Self {
-        BsdfParams {
-            base_color: Spectrum::WHITE,
-            metallic: 0.0,
-            roughness: 1.0,
-            ior: 1.5,
-            specular: 1.0,
-            specular_color: Spectrum::WHITE,
-            transmission: 0.0,
-            thin: true,
-            eta: 1.5,
-            diffuse_sampling: DiffuseSampling::Cosine,
-        }
-    }
-}
 
 /// One term of the mixture.
 #[derive(Clone, Copy, Debug, PartialEq)]

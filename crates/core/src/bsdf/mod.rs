@@ -20,10 +20,12 @@ pub mod dielectric_base;
 pub mod lambert;
 pub mod metal;
 mod mixture;
+mod params;
 pub mod thin;
 
 pub use lambert::DiffuseSampling;
-pub use mixture::{Bsdf, BsdfParams};
+pub use mixture::Bsdf;
+pub use params::{BsdfParams, CoatParams, FilmParams, GlossParams, SheenParams};
 
 use crate::math::Vec3;
 use crate::rgb::Spectrum;

@@ -63,6 +63,90 @@ pub struct Volume {
     pub attenuation_distance: f32,
 }
 
+/// `KHR_materials_clearcoat`: a clear varnish of index 1.5 over everything else.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearcoat {
+    /// Strength, 0 to 1.
+    pub factor: f32,
+    /// Linear; its red multiplies it.
+    pub texture: Option<TextureRef>,
+    /// Perceptual roughness, 0 to 1.
+    pub roughness: f32,
+    /// Linear; its green multiplies it.
+    pub roughness_texture: Option<TextureRef>,
+    /// Normal map of the coat alone; without it the coat follows the geometry, not the normal map beneath.
+    pub normal_texture: Option<TextureRef>,
+    /// Factor on its x and y.
+    pub normal_scale: f32,
+}
+
+/// `KHR_materials_sheen`: fibres that shine at grazing angles, under the coat and over the rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sheen {
+    /// Linear colour; black is no sheen.
+    pub color: Rgb,
+    /// sRGB; multiplies it.
+    pub color_texture: Option<TextureRef>,
+    /// Perceptual roughness, 0 to 1.
+    pub roughness: f32,
+    /// Linear; its alpha multiplies it.
+    pub roughness_texture: Option<TextureRef>,
+}
+
+/// `KHR_materials_anisotropy`: microfacets wider along one direction of the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anisotropy {
+    /// 0 to 1.
+    pub strength: f32,
+    /// Direction of the widening: angle from the tangent, radians, counter-clockwise.
+    pub rotation: f32,
+    /// Linear; red and green are a direction in tangent space (0..1 for -1..1), blue multiplies the strength.
+    pub texture: Option<TextureRef>,
+}
+
+/// `KHR_materials_iridescence`: a film as thin as a wavelength over the base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iridescence {
+    /// Strength, 0 to 1.
+    pub factor: f32,
+    /// Linear; its red multiplies it.
+    pub texture: Option<TextureRef>,
+    /// Index of refraction of the film.
+    pub ior: f32,
+    /// Thickness where the texture is 0, nanometres.
+    pub thickness_min_nm: f32,
+    /// Thickness where it is 1, and where there is none, nanometres.
+    pub thickness_max_nm: f32,
+    /// Linear; its green chooses between them.
+    pub thickness_texture: Option<TextureRef>,
+}
+
+/// `KHR_materials_diffuse_transmission`: a share of the diffuse base that leaves on the other side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiffuseTransmission {
+    /// The share, 0 to 1.
+    pub factor: f32,
+    /// Linear; its alpha multiplies it.
+    pub texture: Option<TextureRef>,
+    /// Linear colour of what passes.
+    pub color: Rgb,
+    /// sRGB; multiplies it.
+    pub color_texture: Option<TextureRef>,
+}
+
+/// The glossy part of an MTL material. It takes the place of the dielectric's reflection, over a diffuse base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Phong {
+    /// Linear reflectance at normal incidence.
+    pub specular: Rgb,
+    /// sRGB; multiplies it.
+    pub specular_texture: Option<TextureRef>,
+    /// Exponent of the cosine; infinite is a mirror.
+    pub exponent: f32,
+    /// The reflectance rises to 1 at grazing angles (Schlick).
+    pub fresnel: bool,
+}
+
 /// A surface. The defaults are glTF's, but for `metallic`, which is 0 here (loaders of glTF set 1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -110,6 +194,24 @@ pub struct Material {
     pub transmission_texture: Option<TextureRef>,
     /// `KHR_materials_volume`; `None` is a thin wall.
     pub volume: Option<Volume>,
+    /// `KHR_materials_dispersion`: 20 over the Abbe number; 0 refracts all colours alike.
+    pub dispersion: f32,
+    /// Roughness of the diffuse base, 0 to 1 (Oren-Nayar); the green of `metallic_roughness_texture` multiplies it. 0 is Lambert.
+    pub diffuse_roughness: f32,
+    /// Light that leaves the diffuse base on the other side.
+    pub diffuse_transmission: Option<DiffuseTransmission>,
+    /// Stretched microfacets.
+    pub anisotropy: Option<Anisotropy>,
+    /// A thin film.
+    pub iridescence: Option<Iridescence>,
+    /// Fibres.
+    pub sheen: Option<Sheen>,
+    /// Varnish.
+    pub clearcoat: Option<Clearcoat>,
+    /// The gloss of an MTL material.
+    pub phong: Option<Phong>,
+    /// Shows what is behind it, darkened by the shadows that fall on it, to camera rays; a plain surface to all others.
+    pub shadow_catcher: bool,
 }
 
 impl Default for Material {
@@ -137,6 +239,15 @@ impl Default for Material {
             transmission: 0.0,
             transmission_texture: None,
             volume: None,
+            dispersion: 0.0,
+            diffuse_roughness: 0.0,
+            diffuse_transmission: None,
+            anisotropy: None,
+            iridescence: None,
+            sheen: None,
+            clearcoat: None,
+            phong: None,
+            shadow_catcher: false,
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Materials to records. Values outside their domain are brought into it here, once, so that no BSDF meets them.
 
-use super::{CompileError, check};
-use crate::compiled::CompiledScene;
+use super::{CompileError, check, index32, lobes};
 use crate::compiled::material::{MaterialRecord, TextureUse, flag};
+use crate::compiled::{CompiledScene, NONE};
 use crate::{AlphaMode, Material, Scene, TextureRef};
 use lumbre_core::Rgb;
 use lumbre_core::math::sin_cos;
@@ -23,7 +23,7 @@ pub(super) fn compile(
             &m.specular_color_texture,
             &m.transmission_texture,
         ];
-        for t in textures.into_iter().flatten() {
+        for t in textures.into_iter().flatten().chain(lobes::textures(m)) {
             check(Some(t.texture.0), scene.textures.len(), "texture", || format!("/materials/{i}"))?;
             if t.uv_set > 1 {
                 let message = format!("texture coordinate set {} (0 and 1 are read)", t.uv_set);
@@ -33,7 +33,12 @@ pub(super) fn compile(
         if is_solid(m) && m.alpha_mode != AlphaMode::Opaque {
             notes.push(format!("/materials/{i}: solid glass has no alpha; its alpha mode is ignored"));
         }
-        out.materials.push(record(m));
+        let mut compiled = record(m);
+        if let Some(lobes) = lobes::record(m) {
+            compiled.lobes = index32(out.lobes.len(), "materials")?;
+            out.lobes.push(lobes);
+        }
+        out.materials.push(compiled);
     }
     let standard = Material { metallic: 0.0, double_sided: true, ..Material::default() };
     out.materials.push(record(&standard));
@@ -41,11 +46,11 @@ pub(super) fn compile(
 }
 
 /// Not negative and finite.
-fn positive(c: Rgb) -> Rgb {
+pub(super) fn positive(c: Rgb) -> Rgb {
     c.map(|v| if v.is_finite() { v.max(0.0) } else { 0.0 })
 }
 
-fn unit(v: f32, otherwise: f32) -> f32 {
+pub(super) fn unit(v: f32, otherwise: f32) -> f32 {
     if v.is_nan() { otherwise } else { v.clamp(0.0, 1.0) }
 }
 
@@ -66,6 +71,13 @@ fn record(m: &Material) -> MaterialRecord {
     set(m.alpha_mode == AlphaMode::Blend && !solid, flag::ALPHA_BLEND);
     set(solid, flag::SOLID);
     set(!emission.is_black() && !m.unlit, flag::EMISSIVE);
+    set(m.shadow_catcher && !m.unlit, flag::SHADOW_CATCHER);
+    if let Some(phong) = m.phong.filter(|_| !m.unlit) {
+        set(true, flag::PHONG);
+        set(phong.fresnel, flag::PHONG_FRESNEL);
+    }
+    set(m.diffuse_transmission.is_some_and(|d| d.factor > 0.0) && !m.unlit, flag::DIFFUSE_TRANSMISSION);
+    set(m.dispersion > 0.0 && solid, flag::DISPERSION);
     MaterialRecord {
         base_color: positive(m.base_color).min(1.0),
         alpha: unit(m.alpha, 1.0),
@@ -89,6 +101,7 @@ fn record(m: &Material) -> MaterialRecord {
         transmission: if m.unlit { 0.0 } else { unit(m.transmission, 0.0) },
         normal_scale: m.normal_scale,
         flags,
+        lobes: NONE,
         base_color_texture: texture_use(&m.base_color_texture),
         metallic_roughness_texture: texture_use(&m.metallic_roughness_texture),
         normal_texture: texture_use(&m.normal_texture),
@@ -101,7 +114,7 @@ fn record(m: &Material) -> MaterialRecord {
 
 /// `KHR_texture_transform`: translation · rotation · scale. With v pointing down the extension's rotation matrix is
 /// (cos, sin; -sin, cos).
-fn texture_use(t: &Option<TextureRef>) -> TextureUse {
+pub(super) fn texture_use(t: &Option<TextureRef>) -> TextureUse {
     let Some(t) = t else { return TextureUse::default() };
     let (s, c) = sin_cos(t.transform.rotation);
     let ([sx, sy], [ox, oy]) = (t.transform.scale, t.transform.offset);

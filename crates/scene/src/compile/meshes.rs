@@ -1,6 +1,6 @@
 //! Meshes and the instances of them.
 
-use super::{CompileError, Placed, check, grow, index32, tangents};
+use super::{CompileError, Placed, check, grow, index32, lobes, tangents};
 use crate::compiled::geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex, attribute};
 use crate::compiled::material::flag;
 use crate::compiled::{CompiledScene, NONE};
@@ -66,19 +66,19 @@ fn add_mesh(
         opaque &= record.is_opaque();
         culls |= record.culls_back_faces();
         emissive |= record.has(flag::EMISSIVE);
-        let normal_map = record.normal_texture;
-        let uv = if normal_map.uv_set == 1 { &primitive.uv1 } else { &primitive.uv0 };
-        let primitive = if normal_map.is_none()
-            || !primitive.tangents.is_empty()
-            || primitive.indices.is_empty()
-        {
-            Cow::Borrowed(primitive)
-        } else if uv.is_empty() {
-            notes.push(format!("{}: no texture coordinates for its normal map, which is not used", place()));
-            Cow::Borrowed(primitive)
-        } else {
-            Cow::Owned(tangents::with_tangents(primitive, uv))
-        };
+        let tangent_uv_set = scene.materials.get(material).and_then(lobes::tangent_uv_set);
+        let uv = if tangent_uv_set == Some(1) { &primitive.uv1 } else { &primitive.uv0 };
+        let primitive =
+            if tangent_uv_set.is_none() || !primitive.tangents.is_empty() || primitive.indices.is_empty() {
+                Cow::Borrowed(primitive)
+            } else if uv.is_empty() {
+                let what =
+                    "no texture coordinates for its normal map or anisotropy, which go without tangents";
+                notes.push(format!("{}: {what}", place()));
+                Cow::Borrowed(primitive)
+            } else {
+                Cow::Owned(tangents::with_tangents(primitive, uv))
+            };
         append(&primitive, material as u32, out)?;
     }
     let first_emissive_rank = if emissive { add_emissive_ranks(first_triangle, out)? } else { NONE };

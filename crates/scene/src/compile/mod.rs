@@ -4,6 +4,7 @@
 //! by its transform, a punctual light without power) is left out and named in the notes.
 
 mod lights;
+mod lobes;
 mod materials;
 mod meshes;
 mod tangents;

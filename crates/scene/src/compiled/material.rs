@@ -18,6 +18,16 @@ pub mod flag {
     pub const SOLID: u32 = 16;
     /// Its emission is not zero everywhere.
     pub const EMISSIVE: u32 = 32;
+    /// Catches shadows.
+    pub const SHADOW_CATCHER: u32 = 64;
+    /// Its gloss is that of an MTL material: `LobesRecord::phong_…`.
+    pub const PHONG: u32 = 128;
+    /// Its Phong reflectance rises to 1 at grazing angles.
+    pub const PHONG_FRESNEL: u32 = 256;
+    /// Part of its diffuse light leaves on the other side.
+    pub const DIFFUSE_TRANSMISSION: u32 = 512;
+    /// Its refraction depends on the wavelength.
+    pub const DISPERSION: u32 = 1024;
 }
 
 /// How a material uses a texture.
@@ -82,6 +92,8 @@ pub struct MaterialRecord {
     pub normal_scale: f32,
     /// Bits of [`flag`].
     pub flags: u32,
+    /// Which of `CompiledScene::lobes`, or [`NONE`] for a material that has only what stands here.
+    pub lobes: u32,
     /// sRGB colour, linear alpha.
     pub base_color_texture: TextureUse,
     /// G roughness, B metallic.
@@ -117,6 +129,88 @@ impl MaterialRecord {
     /// True when camera rays do not see its back.
     #[inline]
     pub fn culls_back_faces(&self) -> bool {
-        !self.has(flag::DOUBLE_SIDED) && self.transmission == 0.0
+        !self.has(flag::DOUBLE_SIDED | flag::DIFFUSE_TRANSMISSION) && self.transmission == 0.0
+    }
+}
+
+/// What only some materials have. Fields mean what they mean in [`crate::Material`] and its parts; a factor of 0 switches a part off.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct LobesRecord {
+    /// Coat.
+    pub coat: f32,
+    /// Its perceptual roughness.
+    pub coat_roughness: f32,
+    /// Factor on its normal map.
+    pub coat_normal_scale: f32,
+    /// Perceptual roughness of the sheen.
+    pub sheen_roughness: f32,
+    /// Its colour; black for none.
+    pub sheen_color: Rgb,
+    /// Anisotropy.
+    pub anisotropy: f32,
+    /// Its direction in tangent space, unit.
+    pub anisotropy_direction: [f32; 2],
+    /// Thin film.
+    pub iridescence: f32,
+    /// Its index of refraction.
+    pub iridescence_ior: f32,
+    /// Its thickness where the texture is 0 and 1, nanometres.
+    pub iridescence_thickness_nm: [f32; 2],
+    /// 20 over the Abbe number.
+    pub dispersion: f32,
+    /// Roughness of the diffuse base.
+    pub diffuse_roughness: f32,
+    /// Colour of what the base transmits.
+    pub diffuse_transmission_color: Rgb,
+    /// Its share.
+    pub diffuse_transmission: f32,
+    /// Phong reflectance.
+    pub phong_specular: Rgb,
+    /// Phong exponent; infinite is a mirror.
+    pub phong_exponent: f32,
+    /// R.
+    pub coat_texture: TextureUse,
+    /// G.
+    pub coat_roughness_texture: TextureUse,
+    /// Normal map of the coat.
+    pub coat_normal_texture: TextureUse,
+    /// sRGB.
+    pub sheen_color_texture: TextureUse,
+    /// A.
+    pub sheen_roughness_texture: TextureUse,
+    /// RG direction, B strength.
+    pub anisotropy_texture: TextureUse,
+    /// R.
+    pub iridescence_texture: TextureUse,
+    /// G.
+    pub iridescence_thickness_texture: TextureUse,
+    /// A.
+    pub diffuse_transmission_texture: TextureUse,
+    /// sRGB.
+    pub diffuse_transmission_color_texture: TextureUse,
+    /// sRGB.
+    pub phong_specular_texture: TextureUse,
+}
+
+impl Default for LobesRecord {
+    /// Every part switched off.
+    fn default() -> Self {
+        let none = TextureUse::default();
+        LobesRecord {
+            anisotropy_direction: [1.0, 0.0],
+            coat_texture: none,
+            coat_roughness_texture: none,
+            coat_normal_texture: none,
+            sheen_color_texture: none,
+            sheen_roughness_texture: none,
+            anisotropy_texture: none,
+            iridescence_texture: none,
+            iridescence_thickness_texture: none,
+            diffuse_transmission_texture: none,
+            diffuse_transmission_color_texture: none,
+            phong_specular_texture: none,
+            ..Zeroable::zeroed()
+        }
     }
 }

@@ -9,7 +9,7 @@ use geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex};
 use lights::{EnvironmentRecord, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord};
 use lumbre_core::Rgb;
 use lumbre_core::light::environment::EnvironmentLight;
-use material::MaterialRecord;
+use material::{LobesRecord, MaterialRecord};
 use texture::TextureRecord;
 
 /// An index that points nowhere.
@@ -39,6 +39,8 @@ pub struct CompiledScene {
     pub transforms: Vec<TransformKey>,
     /// Materials; the last one stands in where none is given.
     pub materials: Vec<MaterialRecord>,
+    /// What only some materials have.
+    pub lobes: Vec<LobesRecord>,
     /// Textures, each a range of `texels`.
     pub textures: Vec<TextureRecord>,
     /// RGBA8 texels, red in the low byte.
