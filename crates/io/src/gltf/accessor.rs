@@ -2,7 +2,7 @@
 
 use super::buffers::{Buffers, View};
 use super::document::Document;
-use crate::{IoError, Limits};
+use crate::{Bound, IoError};
 use gltf::json::accessor::{ComponentType, Type, sparse::Sparse};
 use gltf::json::validation::Checked;
 
@@ -117,8 +117,7 @@ impl<'a> Accessors<'a> {
         let accessor = &self.doc.root.accessors[index];
         let Some(view) = accessor.buffer_view else {
             let here = format!("/accessors/{index}/count");
-            let (count, limit) = (form.count as u64, self.doc.limits.max_zero_filled);
-            Limits::check(self.doc.path, &here, "number of elements without data", count, limit)?;
+            self.doc.limits.hold(Bound::ZeroFilled, self.doc.path, &here, form.count as u64)?;
             return Ok(None);
         };
         let place = || format!("/accessors/{index}/bufferView");

@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::uri::Resolver;
-use crate::{IoError, Limits};
+use crate::{Bound, IoError};
 use std::borrow::Cow;
 
 /// All buffers of a scene.
@@ -21,13 +21,13 @@ pub(super) struct View<'a> {
 impl<'a> Buffers<'a> {
     /// Reads every buffer; `bin` is the binary chunk of a .glb.
     pub(super) fn load(doc: &Document, resolver: &Resolver, bin: Option<&'a [u8]>) -> Result<Self, IoError> {
-        let mut left = doc.limits.max_buffer_bytes;
+        let mut room = doc.limits.room(Bound::BufferBytes);
         let mut data = Vec::with_capacity(doc.root.buffers.len());
         for (i, buffer) in doc.root.buffers.iter().enumerate() {
             let place = format!("/buffers/{i}");
             let bytes = match &buffer.uri {
                 Some(uri) => {
-                    let limit = left.min(doc.limits.max_file_bytes);
+                    let limit = room.min(doc.limits.room(Bound::FileBytes));
                     Cow::Owned(resolver.read(uri, &format!("{place}/uri"), limit)?.bytes)
                 }
                 // Only the first buffer may mean the binary chunk.
@@ -39,8 +39,7 @@ impl<'a> Buffers<'a> {
             if want > have {
                 return Err(doc.error(&place, format!("byteLength is {want}, but there are {have} bytes")));
             }
-            Limits::check(doc.path, &place, "size of all buffers", have, left)?;
-            left -= have;
+            room.take(doc.path, &place, have)?;
             // A file may be longer than the buffer (a .glb's chunk is padded).
             data.push(match bytes {
                 Cow::Borrowed(b) => Cow::Borrowed(&b[..want as usize]),

@@ -15,6 +15,7 @@ mod lights;
 mod material;
 mod mesh;
 mod nodes;
+mod prescan;
 mod primitive;
 mod textures;
 mod uri;
