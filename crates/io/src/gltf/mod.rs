@@ -10,6 +10,7 @@ mod container;
 mod document;
 mod extensions;
 mod images;
+mod instancing;
 mod json;
 mod lights;
 mod material;
@@ -19,6 +20,7 @@ mod prescan;
 mod primitive;
 mod textures;
 mod uri;
+mod variants;
 
 use crate::warnings::Warnings;
 use crate::{IoError, LoadOptions, Loaded};
@@ -50,8 +52,11 @@ fn load(
     options: &LoadOptions,
     mut warnings: Warnings,
 ) -> Result<Loaded, IoError> {
-    let doc = Document::parse(path, json, &options.limits)?;
+    let mut doc = Document::parse(path, json, &options.limits)?;
     extensions::check(&doc, &mut warnings)?;
+    if let Some(variant) = &options.variant {
+        variants::choose(&mut doc, variant)?;
+    }
     doc.warn_of_motion(&mut warnings);
     let resolver = Resolver::new(path)?;
     let buffers = Buffers::load(&doc, &resolver, bin)?;
@@ -60,10 +65,11 @@ fn load(
     let mut table = TextureTable::default();
     let materials = material::load_all(&doc, &mut table, &mut warnings)?;
     let lights = lights::load_all(&doc, &mut warnings)?;
-    let graph = nodes::load(&doc, lights.len(), &mut warnings)?;
+    let mut graph = nodes::load(&doc, lights.len(), &options.scene, &mut warnings)?;
+    let accessors = Accessors { doc: &doc, buffers: &buffers };
+    instancing::expand(&accessors, &mut graph.nodes, &mut warnings)?;
 
     // Then what is large, on all cores.
-    let accessors = Accessors { doc: &doc, buffers: &buffers };
     let (images, meshes) = rayon::join(
         || images::load_all(&doc, &buffers, &resolver, table.images()),
         || mesh::load_all(&accessors),
