@@ -25,6 +25,7 @@ use crate::{IoError, LoadOptions, Loaded};
 use accessor::Accessors;
 use buffers::Buffers;
 use document::Document;
+pub use extensions::{GLTF_EXTENSIONS, GltfExtension, Support};
 use lumbre_scene::{Environment, Scene};
 use std::path::Path;
 use textures::TextureTable;
@@ -68,7 +69,8 @@ fn load(
         || mesh::load_all(&accessors),
     );
     let (meshes, mesh_warnings) = meshes?;
-    let images = images?;
+    let mut images = images?;
+    table.make_roughness(&mut images, path, &options.limits)?;
     warnings.append(mesh_warnings);
 
     let scene = Scene {

@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use super::json::Object;
+use super::material::Glossy;
 use crate::IoError;
 use crate::warnings::Warnings;
 use gltf::json::Value;
@@ -18,6 +19,8 @@ pub(super) struct TextureTable {
     images: Vec<usize>,
     texture_ids: HashMap<usize, TextureId>,
     image_ids: HashMap<usize, ImageId>,
+    /// Textures of roughness, made from others once the images are decoded.
+    pub(super) glossy: Glossy,
 }
 
 /// How a material names a texture.
