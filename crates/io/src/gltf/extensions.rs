@@ -40,6 +40,9 @@ const fn not_needed(name: &'static str, brings: &'static str) -> GltfExtension {
 
 /// All that this loader knows, by name. Every other extension is an error where a scene requires it, a warning elsewhere.
 pub const GLTF_EXTENSIONS: &[GltfExtension] = &[
+    full("EXT_meshopt_compression", "compressed buffers"),
+    full("EXT_texture_webp", "WebP textures"),
+    full("KHR_draco_mesh_compression", "compressed meshes"),
     full("KHR_lights_punctual", "point, spot and directional lights"),
     full("KHR_materials_anisotropy", "microfacets stretched along one direction"),
     full("KHR_materials_clearcoat", "a clear varnish"),
@@ -59,6 +62,8 @@ pub const GLTF_EXTENSIONS: &[GltfExtension] = &[
         "the thickness texture, which only rasterisers need",
     ),
     full("KHR_mesh_quantization", "vertices in small integers"),
+    full("KHR_meshopt_compression", "compressed buffers"),
+    full("KHR_texture_basisu", "KTX2 textures"),
     full("KHR_texture_transform", "moved, turned and scaled textures"),
     not_needed("KHR_xmp_json_ld", "metadata"),
 ];
