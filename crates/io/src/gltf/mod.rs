@@ -7,6 +7,7 @@
 mod accessor;
 mod buffers;
 mod container;
+mod describe;
 mod document;
 mod draco;
 mod extensions;
@@ -21,6 +22,8 @@ mod prescan;
 mod primitive;
 mod textures;
 mod uri;
+
+pub(crate) use describe::describe;
 
 use crate::warnings::Warnings;
 use crate::{IoError, LoadOptions, Loaded};
