@@ -48,7 +48,7 @@ enum Filter {
     Color,
 }
 
-/// The decoded bytes of every compressed view, by its index; within what is left of the room for buffers.
+/// The decoded bytes of every compressed view, by its index; within `room`.
 pub(super) fn decode_all(
     doc: &Document,
     buffers: &[impl AsRef<[u8]>],

@@ -7,6 +7,7 @@
 mod accessor;
 mod buffers;
 mod container;
+mod describe;
 mod document;
 mod draco;
 mod extensions;
@@ -23,6 +24,8 @@ mod primitive;
 mod textures;
 mod uri;
 mod variants;
+
+pub(crate) use describe::describe;
 
 use crate::warnings::Warnings;
 use crate::{IoError, LoadOptions, Loaded};
