@@ -11,6 +11,7 @@ mod guard;
 mod image;
 mod limits;
 mod open;
+mod resolver;
 mod warnings;
 
 pub use error::{ErrorKind, IoError};

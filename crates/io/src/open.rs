@@ -2,13 +2,15 @@
 
 use crate::{IoError, Limits, files, gltf};
 use lumbre_scene::Scene;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How to load.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LoadOptions {
     /// Bounds on what the file may ask for.
     pub limits: Limits,
+    /// Folders beside that of the scene from which files that it names may be read.
+    pub asset_dirs: Vec<PathBuf>,
 }
 
 /// A scene, and what there is to say about how it was read.

@@ -1,7 +1,7 @@
 //! Buffers and the views into them.
 
 use super::document::Document;
-use super::uri::Resolver;
+use crate::resolver::Resolver;
 use crate::{IoError, Limits};
 use std::borrow::Cow;
 

@@ -2,8 +2,8 @@
 
 use super::buffers::Buffers;
 use super::document::Document;
-use super::uri::Resolver;
 use crate::image::ldr;
+use crate::resolver::Resolver;
 use crate::{IoError, Limits};
 use lumbre_scene::Image;
 use rayon::prelude::*;

@@ -17,8 +17,8 @@ mod mesh;
 mod nodes;
 mod primitive;
 mod textures;
-mod uri;
 
+use crate::resolver::Resolver;
 use crate::warnings::Warnings;
 use crate::{IoError, LoadOptions, Loaded};
 use accessor::Accessors;
@@ -27,7 +27,6 @@ use document::Document;
 use lumbre_scene::{Environment, Scene};
 use std::path::Path;
 use textures::TextureTable;
-use uri::Resolver;
 
 /// Loads a binary glTF from its bytes; `path` is where they came from.
 pub(crate) fn load_glb(path: &Path, bytes: Vec<u8>, options: &LoadOptions) -> Result<Loaded, IoError> {
@@ -51,7 +50,7 @@ fn load(
     let doc = Document::parse(path, json, &options.limits)?;
     extensions::check(&doc, &mut warnings)?;
     doc.warn_of_motion(&mut warnings);
-    let resolver = Resolver::new(path)?;
+    let resolver = Resolver::new(path, options)?;
     let buffers = Buffers::load(&doc, &resolver, bin)?;
 
     // What is small comes first, in order; it says which images are needed.
