@@ -12,6 +12,7 @@ mod guard;
 mod image;
 mod limits;
 mod open;
+mod resolver;
 mod warnings;
 
 pub use describe::{Description, UsedExtension, describe_scene};

@@ -3,7 +3,7 @@
 use crate::describe::Description;
 use crate::{IoError, Limits, files, gltf};
 use lumbre_scene::Scene;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How to load.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -14,6 +14,8 @@ pub struct LoadOptions {
     pub scene: SceneChoice,
     /// Which set of materials (`KHR_materials_variants`), by name; `None`: the materials that stand without one.
     pub variant: Option<String>,
+    /// Folders beside that of the scene from which files that it names may be read.
+    pub asset_dirs: Vec<PathBuf>,
 }
 
 /// Which scene of a file that holds several.

@@ -163,7 +163,7 @@ fn picture(n: u32) -> Vec<Rgb> {
 
 #[test]
 fn gltf_and_glb() {
-    let options = LoadOptions { limits: limits() };
+    let options = LoadOptions { limits: limits(), ..LoadOptions::default() };
     // A scene that loads must also compile, or say why not.
     let read = |path: &Path| load_scene(path, &options).map(|l| lumbre_scene::compile(&l.scene).map(|_| ()));
     survive("scene.gltf", rich_scene().text().as_bytes(), read);
