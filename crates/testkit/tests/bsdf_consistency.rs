@@ -104,13 +104,17 @@ fn shadow_transmittances_are_the_weights_of_the_delta_lobes() {
                 let through = (0..20_000)
                     .filter_map(|k| draw(&bsdf, wo, k, Radiance))
                     .find(|s| s.lobe.is_transmission())
-                    .map_or(Spectrum::BLACK, |s| s.weight * (s.pdf / s.eta_scale));
+                    .map(|s| s.weight * (s.pdf / s.eta_scale));
                 let (want, none) = if thin {
                     (bsdf.thin_transmittance(wo), bsdf.straight_transmittance(wo))
                 } else {
                     (bsdf.straight_transmittance(wo), bsdf.thin_transmittance(wo))
                 };
-                assert!(relative(through, want, 1e-3) < 1e-5, "thin {thin} at {wo}: {through:?} {want:?}");
+                // Next to nothing passes varnish at grazing angles, and may not be drawn.
+                match through {
+                    Some(got) => assert!(relative(got, want, 1e-3) < 1e-5, "{thin} {wo}: {got:?} {want:?}"),
+                    None => assert!(want.max_component() < 1e-4, "{thin} {wo}: {want:?}"),
+                }
                 assert!(none.is_black());
             }
             let rough = Bsdf::new(&BsdfParams { roughness: 0.3, ..params });
