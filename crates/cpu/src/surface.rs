@@ -81,8 +81,12 @@ impl Surface {
         let base_color = base_color(scene, material, &it.uv, &it.color).rgb;
         let sides = material.has(flag::SOLID).then(|| media.sides(medium(material, it.material), it.front));
         let eta = sides.map_or(1.0, |(here, beyond)| beyond.ior / here.ior);
-        let mut params =
-            BsdfParams { eta, diffuse_sampling, ..bsdf_params(scene, material, &it.uv, base_color) };
+        let mut params = BsdfParams {
+            eta,
+            inside: sides.is_some() && !it.front,
+            diffuse_sampling,
+            ..bsdf_params(scene, material, &it.uv, base_color)
+        };
         let ng = if it.front { it.ng } else { -it.ng };
         let normals = ShadingNormals { scene, it, wo, ng };
         let normal = normals.mapped(&material.normal_texture, material.normal_scale);

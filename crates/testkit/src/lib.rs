@@ -12,5 +12,6 @@ pub mod plot;
 pub mod ready;
 pub mod references;
 pub mod shapes;
+pub mod sheen_tables;
 pub mod square;
 pub mod z_test;

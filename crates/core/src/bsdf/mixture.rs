@@ -1,9 +1,9 @@
-//! The surface as integrators see it: a mixture of metal, opaque dielectric and transmissive dielectric with fixed weights
+//! What lies beneath the layers of [`super::layered`]: a mixture of metal, opaque dielectric and transmissive dielectric with fixed weights
 //! (glTF 2.0 appendix B, KHR_materials_transmission, _volume, _ior, _specular).
 //!
 //! weight = metallic; (1 - metallic)(1 - transmission); (1 - metallic) transmission. One component is chosen, by its weight times an
 //! estimate of its albedo; its smooth lobes are then weighted with the density of all components (one-sample model, Veach 1997, 9.2.4).
-//! Room is left for layers over the mixture (coat, sheen) and for anisotropy in [`crate::microfacet::Ggx`].
+//! Room is left for anisotropy in [`crate::microfacet::Ggx`].
 
 use super::compensation::Rough;
 use super::dielectric::Dielectric;
@@ -17,7 +17,7 @@ use crate::math::{ONE_MINUS_EPSILON, Vec3};
 use crate::rgb::Spectrum;
 
 /// Rays closer to the surface than this cosine do not scatter: half vectors would lose all digits.
-const MIN_COS: f32 = 1e-6;
+pub(super) const MIN_COS: f32 = 1e-6;
 
 /// Added to each component's albedo when choosing, so that none with weight is ever out of reach.
 const ALBEDO_FLOOR: f32 = 0.05;
@@ -82,14 +82,14 @@ struct Component {
     prob: f32,
 }
 
-/// Scattering at one point: a mixture of at most three models. No allocation; made anew at each hit.
+/// A mixture of at most three models.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bsdf {
+pub struct Mixture {
     first: Component,
     others: [Option<Component>; 2],
 }
 
-impl Bsdf {
+impl Mixture {
     /// The surface with the given parameters.
     #[inline]
     pub fn new(params: &BsdfParams) -> Self {
@@ -97,21 +97,21 @@ impl Bsdf {
         let (metallic, transmission) = (unit_interval(params.metallic), unit_interval(params.transmission));
         let weights = [metallic, (1.0 - metallic) * (1.0 - transmission), (1.0 - metallic) * transmission];
         if weights[1] == 1.0 && params.specular <= 0.0 {
-            return Bsdf::lambert(base_color, params.diffuse_sampling);
+            return Mixture::lambert(base_color, params.diffuse_sampling);
         }
         let rough = Rough::new(params.roughness);
         // Most surfaces are of one kind.
         for (weight, term) in weights.into_iter().zip(TERMS) {
             if weight == 1.0 {
-                return Bsdf::single(term(params, base_color, rough));
+                return Mixture::single(term(params, base_color, rough));
             }
         }
-        Bsdf::mixed(params, weights, base_color, rough)
+        Mixture::mixed(params, weights, base_color, rough)
     }
 
     #[inline]
     fn single(model: Model) -> Self {
-        Bsdf { first: Component { model, weight: 1.0, prob: 1.0 }, others: [None; 2] }
+        Mixture { first: Component { model, weight: 1.0, prob: 1.0 }, others: [None; 2] }
     }
 
     /// Two or three terms.
@@ -123,7 +123,7 @@ impl Bsdf {
             });
         // The weights sum to 1, so at least one term exists.
         let first = terms.next().expect("weights sum to 1");
-        let mut bsdf = Bsdf { first, others: [terms.next(), terms.next()] };
+        let mut bsdf = Mixture { first, others: [terms.next(), terms.next()] };
         let sum: f32 = bsdf.components().map(|c| c.prob).sum();
         bsdf.first.prob /= sum;
         for c in bsdf.others.iter_mut().flatten() {
@@ -136,7 +136,7 @@ impl Bsdf {
     #[inline]
     pub fn lambert(albedo: Spectrum, sampling: DiffuseSampling) -> Self {
         let base = DielectricBase::new(albedo, Spectrum::BLACK, 0.0, None, sampling);
-        Bsdf::single(Model::Base(base))
+        Mixture::single(Model::Base(base))
     }
 
     #[inline]
@@ -162,18 +162,6 @@ impl Bsdf {
             let (f_c, pdf_c) = c.model.eval_pdf(wo, wi, mode);
             (f + f_c * c.weight, pdf + pdf_c * c.prob)
         })
-    }
-
-    /// f · |cos θi|, smooth lobes only.
-    #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Spectrum {
-        self.eval_pdf(wo, wi, mode).0
-    }
-
-    /// Density of `sample`, sr⁻¹, smooth lobes only. It integrates to 1 less the probabilities of delta lobes and of samples that end.
-    #[inline]
-    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.eval_pdf(wo, wi, TransportMode::Radiance).1
     }
 
     /// Draws a direction. `None` when the path ends here: the light of that sample is 0.
@@ -278,6 +266,6 @@ fn transmissive(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>)
 
 /// Clamps to [0, 1]; NaN becomes 0.
 #[inline]
-fn unit_interval(x: f32) -> f32 {
+pub(super) fn unit_interval(x: f32) -> f32 {
     if x > 0.0 { x.min(1.0) } else { 0.0 }
 }

@@ -2,7 +2,7 @@
 //!
 //! `wo` points to the camera side, `wi` is the sampled side. Both are unit and point away from the surface. The side the ray came
 //! from is always +z: callers turn the frame. [`Bsdf`] is the closed form integrators use: the weighted mixture of glTF's
-//! metallic-roughness model with transmission.
+//! metallic-roughness model with transmission, under layers of sheen and varnish.
 //!
 //! | model | file | choice of direction |
 //! |---|---|---|
@@ -11,20 +11,26 @@
 //! | opaque dielectric | [`dielectric_base`] | visible normals + cosine |
 //! | boundary of a solid | [`dielectric`] | visible normals, Fresnel |
 //! | thin wall | [`thin`] | visible normals + compensation, Fresnel |
+//! | sheen | [`sheen`] | fitted heights and azimuths |
+//! | coat | [`coat`] | visible normals |
 
 pub mod albedo;
 mod albedo_data;
+pub mod coat;
 pub mod compensation;
 pub mod dielectric;
 pub mod dielectric_base;
 pub mod lambert;
+mod layered;
 pub mod metal;
-mod mixture;
+pub mod mixture;
 mod params;
+pub mod sheen;
+mod sheen_data;
 pub mod thin;
 
 pub use lambert::DiffuseSampling;
-pub use mixture::Bsdf;
+pub use layered::Bsdf;
 pub use params::{BsdfParams, CoatParams, FilmParams, GlossParams, SheenParams};
 
 use crate::math::Vec3;

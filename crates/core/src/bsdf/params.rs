@@ -25,6 +25,8 @@ pub struct BsdfParams {
     pub thin: bool,
     /// For solids: index on the far side over index on the side of the ray.
     pub eta: f32,
+    /// For solids: the ray comes from inside. Sheen and coat lie on the outside.
+    pub inside: bool,
     /// How diffuse directions are drawn.
     pub diffuse_sampling: DiffuseSampling,
     /// Roughness of the diffuse base; 0 is Lambert.
@@ -100,6 +102,7 @@ impl Default for BsdfParams {
             transmission: 0.0,
             thin: true,
             eta: 1.5,
+            inside: false,
             diffuse_sampling: DiffuseSampling::Cosine,
             diffuse_roughness: 0.0,
             diffuse_transmission: 0.0,
