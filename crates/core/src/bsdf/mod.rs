@@ -7,6 +7,9 @@
 //! | model | file | choice of direction |
 //! |---|---|---|
 //! | diffuse | [`lambert`] | cosine |
+//! | rough diffuse | [`oren_nayar`] | cosine about the normal and towards the viewer |
+//! | diffuse base, both sides | [`diffuse`] | those two, and the cosine on the other side |
+//! | gloss of MTL | [`phong`] | power of the cosine about the mirror direction + the base's |
 //! | metal | [`metal`] | visible normals + compensation |
 //! | opaque dielectric | [`dielectric_base`] | visible normals + cosine |
 //! | boundary of a solid | [`dielectric`] | visible normals, Fresnel |
@@ -17,10 +20,13 @@ mod albedo_data;
 pub mod compensation;
 pub mod dielectric;
 pub mod dielectric_base;
+pub mod diffuse;
 pub mod lambert;
 pub mod metal;
 mod mixture;
+pub mod oren_nayar;
 mod params;
+pub mod phong;
 pub mod thin;
 
 pub use lambert::DiffuseSampling;
@@ -44,6 +50,8 @@ pub enum TransportMode {
 pub enum Lobe {
     /// Reflection spread over the hemisphere.
     DiffuseReflection,
+    /// Diffuse light that leaves on the other side.
+    DiffuseTransmission,
     /// Reflection by a rough interface.
     GlossyReflection,
     /// Perfect mirror direction.
@@ -65,8 +73,20 @@ impl Lobe {
     /// True when `wi` leaves on the other side of the surface.
     #[inline]
     pub fn is_transmission(self) -> bool {
-        matches!(self, Lobe::GlossyTransmission | Lobe::SpecularTransmission | Lobe::ThinTransmission)
+        matches!(
+            self,
+            Lobe::DiffuseTransmission
+                | Lobe::GlossyTransmission
+                | Lobe::SpecularTransmission
+                | Lobe::ThinTransmission
+        )
     }
+}
+
+/// Clamps to [0, 1]; NaN becomes 0.
+#[inline]
+fn unit_interval(x: f32) -> f32 {
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
 
 /// A direction drawn by [`Bsdf::sample`].
