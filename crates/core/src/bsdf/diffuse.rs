@@ -2,8 +2,12 @@
 //! side (KHR_materials_diffuse_transmission).
 //!
 //! The share t of the transmission replaces (1 - t) of the reflection, as the extension mixes them: f = (1 - t) ρ/π on the side of the
-//! ray, t c/π on the other, the same in all directions. Both sides are alike, so it is reciprocal, and it keeps at most the
-//! larger of ρ and c. Into a solid of another index radiance is scaled by 1/eta², as at its clear boundary ([`super::dielectric`]).
+//! ray, t c/π on the other, the same in all directions. A thin sheet is alike on both sides, so this is reciprocal, and it keeps at most the
+//! larger of ρ and c.
+//!
+//! At the boundary of a solid t is the share that enters the denser medium. Of what comes back from there only t/eta² leaves, eta the ratio of the indices, since
+//! the same directions outside correspond to eta² times as many inside (Veach 1997, 5.2): the rest stays in, as total reflection would have it. Radiance that crosses
+//! is scaled by 1/eta² as at a clear boundary ([`super::dielectric`]); so it is reciprocal, and a white solid is invisible in a furnace.
 //! Left out: scattering inside a solid; what enters it is absorbed along straight lines only.
 
 use super::lambert::{self, DiffuseSampling};
@@ -31,13 +35,14 @@ impl Diffuse {
     /// The base of a material whose clamped base colour is `rho`.
     #[inline]
     pub fn new(params: &BsdfParams, rho: Spectrum) -> Self {
-        let share = unit_interval(params.diffuse_transmission);
+        let eta2 = if params.thin { 1.0 } else { params.eta * params.eta };
+        let share = unit_interval(params.diffuse_transmission) * eta2.min(1.0);
         Diffuse {
             rho,
             transmitted: params.diffuse_transmission_color.map(unit_interval) * share,
             reflecting: 1.0 - share,
             roughness: unit_interval(params.diffuse_roughness),
-            crossing: if params.thin { 1.0 } else { 1.0 / (params.eta * params.eta) },
+            crossing: 1.0 / eta2,
             sampling: params.diffuse_sampling,
         }
     }

@@ -33,7 +33,8 @@ pub fn eval(rho: Spectrum, roughness: f32, wo: Vec3, wi: Vec3) -> Spectrum {
     let a = 1.0 / (1.0 + C1 * roughness);
     let s = wo.x * wi.x + wo.y * wi.y;
     let ratio = if s > 0.0 { s / wo.z.max(wi.z) } else { s };
-    let single = a * (1.0 + roughness * ratio);
+    // At opposite grazing directions 1 + s vanishes, up to rounding.
+    let single = a * (1.0 + roughness * ratio).max(0.0);
     let lost = |mu: f32| (C1 - g(mu)).max(0.0);
     let multiple = a * roughness * lost(wo.z) * lost(wi.z) * (1.0 / (C1 - C2));
     (rho * single + rho_multiple(rho, roughness) * multiple) * (INV_PI * wi.z)
