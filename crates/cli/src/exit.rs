@@ -1,5 +1,6 @@
 //! How a command ends: the codes (after BSD's sysexits.h where it has a fitting one) and the failures that carry them.
 
+use crate::flags::loading::flag_of;
 use lumbre::DeviceError;
 use lumbre::compare::CompareError;
 use lumbre::io::{ErrorKind, IoError};
@@ -61,7 +62,10 @@ impl From<IoError> for Failure {
             ErrorKind::CannotOpen => Code::CannotOpen,
             ErrorKind::CannotWrite => Code::CannotWrite,
         };
-        Self::new(code, e)
+        match e.bound() {
+            Some(bound) => Self::new(code, format_args!("{e}; {} widens it", flag_of(bound))),
+            None => Self::new(code, e),
+        }
     }
 }
 

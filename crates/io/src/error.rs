@@ -1,5 +1,6 @@
 //! What can go wrong with a file: always its path, the place inside it where there is one, and the reason.
 
+use crate::Bound;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -49,14 +50,14 @@ pub enum IoError {
         feature: String,
     },
     /// A limit of [`Limits`](crate::Limits) is exceeded.
-    #[error("{}: {}{what} {value} exceeds the limit of {limit}", show(path), prefix(place))]
+    #[error("{}: {}{} {value} exceeds the limit of {limit}", show(path), prefix(place), bound.what())]
     Limit {
         /// The file.
         path: PathBuf,
         /// Where in it; may be empty.
         place: String,
-        /// What was counted.
-        what: &'static str,
+        /// Which limit.
+        bound: Bound,
         /// Its value.
         value: u64,
         /// The limit.
@@ -90,6 +91,14 @@ impl IoError {
             | IoError::Unsupported { path, .. }
             | IoError::Limit { path, .. }
             | IoError::Write { path, .. } => path,
+        }
+    }
+
+    /// The limit that was exceeded, if that is what it is about.
+    pub fn bound(&self) -> Option<Bound> {
+        match self {
+            IoError::Limit { bound, .. } => Some(*bound),
+            _ => None,
         }
     }
 
@@ -147,6 +156,11 @@ impl IoError {
         match self {
             IoError::Open { path, reason, .. } => {
                 IoError::Open { path: outer, place, reason: format!("{}: {reason}", show(&path)) }
+            }
+            IoError::Limit { path, place: inner, bound, value, limit } => {
+                let place = format!("{place}: {}: {inner}", show(&path));
+                let place = place.trim_end_matches(": ").to_string();
+                IoError::Limit { path: outer, place, bound, value, limit }
             }
             other => {
                 let reason = other.to_string();

@@ -1,13 +1,15 @@
 //! Whole files in, whole files out. Reading takes regular files of bounded size only; writing goes through a temporary
 //! file beside the target that replaces it in one step, so that no reader ever sees half a file.
 
-use crate::{IoError, Limits};
+use crate::IoError;
+use crate::limits::Room;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Reads a regular file of at most `limit` bytes. Pipes and devices are refused: opening one may block for ever.
-pub(crate) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, IoError> {
+/// Reads a regular file of at most so many bytes. Pipes and devices are refused: opening one may block for ever.
+pub(crate) fn read_file(path: &Path, limit: impl Into<Room>) -> Result<Vec<u8>, IoError> {
+    let limit = limit.into();
     let open = |e: io::Error| IoError::open(path, &e);
     let refuse = |reason: &str| IoError::Open {
         path: path.into(),
@@ -23,11 +25,11 @@ pub(crate) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, IoError> {
     }
     let file = File::open(path).map_err(open)?;
     let size = file.metadata().map_err(open)?.len();
-    Limits::check(path, "", "file size", size, limit)?;
+    limit.check(path, "", size)?;
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
     // The file may grow while it is read: the limit holds all the same.
-    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(open)?;
-    Limits::check(path, "", "file size", bytes.len() as u64, limit)?;
+    file.take(limit.left().saturating_add(1)).read_to_end(&mut bytes).map_err(open)?;
+    limit.check(path, "", bytes.len() as u64)?;
     Ok(bytes)
 }
 

@@ -15,8 +15,9 @@ mod warnings;
 
 pub use error::{ErrorKind, IoError};
 pub use files::check_writable;
+pub use gltf::{GLTF_EXTENSIONS, GltfExtension, Support};
 pub use image::exr::{ExrImage, ExrLayer, read_exr, write_exr};
 pub use image::png::write_png;
 pub use image::{LinearImage, LoadedEnvironment, Range, read_environment, read_linear_image, read_picture};
-pub use limits::Limits;
+pub use limits::{Bound, Limits};
 pub use open::{LoadOptions, Loaded, SCENE_FORMATS, load_scene};

@@ -69,7 +69,7 @@ fn accessors_that_their_bytes_do_not_bear_out() {
             "/accessors/0: 3 elements of 12 bytes, 12 bytes apart from byte 4",
         ),
         ("/accessors/0/byteOffset", json!(huge), "/accessors/0: 3 elements"),
-        ("/accessors/1/count", json!(huge), "/meshes/0/primitives/0: number of triangle corners"),
+        ("/accessors/1/count", json!(huge), "/meshes/0/primitives/0: number of triangles"),
         (
             "/accessors/1/count",
             json!(400),
@@ -280,7 +280,7 @@ fn files_that_are_no_scenes() {
     assert!(load("c.gltf", &[b'['; 100_000]).starts_with("JSON: "));
     let deep = [vec![b'['; 100_000], vec![b']'; 100_000]].concat();
     let nested = [br#"{"asset":{"version":"2.0"},"extensions":{"x":"#, &deep[..], b"}}"].concat();
-    assert!(load("d.gltf", &nested).starts_with("JSON: recursion limit exceeded"));
+    assert!(load("d.gltf", &nested).starts_with("JSON: depth of the JSON"));
     let first = br#"{"asset":{"version":"1.0"}}"#;
     assert_eq!(load("e.gltf", first), "/asset/version: not supported: glTF version \"1.0\"");
     assert_eq!(load("f.glb", b"nothing"), "byte 0: not a binary glTF: it does not begin with `glTF`");
@@ -328,12 +328,16 @@ fn limits_are_kept() {
     };
     refused(&|l| l.max_file_bytes = 10, "file size");
     refused(&|l| l.max_json_bytes = 10, "JSON size");
-    refused(&|l| l.max_buffer_bytes = 10, "/buffers/0/uri: data size");
+    refused(&|l| l.max_buffer_bytes = 10, "/buffers/0/uri: size of all buffers");
     refused(&|l| l.max_image_side = 3, "/images/0: ");
     refused(&|l| l.max_image_bytes = 31, "/images/0: decoded image size 32 exceeds the limit of 31");
     refused(&|l| l.max_total_image_bytes = 31, "/images/0: decoded size of all images 32");
-    refused(&|l| l.max_triangles = 0, "/meshes/0/primitives/0: number of triangle corners 3");
+    refused(&|l| l.max_triangles = 0, "/meshes/0/primitives/0: number of triangles 1");
     refused(&|l| l.max_vertices = 2, "/meshes/0/primitives/0: number of vertices 3");
+    refused(&|l| l.max_json_depth = 3, "JSON: depth of the JSON ");
+    refused(&|l| l.max_json_objects = 5, "JSON: number of JSON objects ");
+    refused(&|l| l.max_instances = 0, "/nodes: number of instances 1 exceeds the limit of 0");
+    refused(&|l| l.max_node_depth = 0, "/nodes/0: depth of the nodes 1 exceeds the limit of 0");
 }
 
 #[test]
@@ -347,7 +351,7 @@ fn a_small_file_cannot_ask_for_much_by_repeating_itself() {
     let mut options = LoadOptions::default();
     options.limits.max_triangles = 999;
     let e = load_scene(&path, &options).unwrap_err().to_string();
-    assert!(e.contains("/meshes/0/primitives/999: number of triangle corners 3000"), "{e}");
+    assert!(e.contains("/meshes/0/primitives/999: number of triangles 1000"), "{e}");
 }
 
 /// A scene in `folder/inside` whose buffer has this URI.

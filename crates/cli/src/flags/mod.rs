@@ -3,6 +3,7 @@
 pub(crate) mod camera;
 pub(crate) mod compare;
 pub(crate) mod light;
+pub(crate) mod loading;
 pub(crate) mod output;
 pub(crate) mod render;
 pub(crate) mod replay;

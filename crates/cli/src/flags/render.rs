@@ -2,6 +2,7 @@
 
 use super::camera::CameraArgs;
 use super::light::LightArgs;
+use super::loading::LoadingArgs;
 use super::output::OutputArgs;
 use super::replay::ReplayArgs;
 use super::run::RunArgs;
@@ -48,4 +49,6 @@ pub(crate) struct RenderArgs {
     pub(crate) run: RunArgs,
     #[command(flatten)]
     pub(crate) replay: ReplayArgs,
+    #[command(flatten)]
+    pub(crate) loading: LoadingArgs,
 }

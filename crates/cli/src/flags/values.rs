@@ -226,6 +226,11 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
     count.ok_or_else(|| format!("{text:?} is not a size such as 800M or 16G"))
 }
 
+/// A number of things.
+pub(crate) fn count(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("{text:?} is not a number from 0"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,10 +5,10 @@ use crate::exit::Failure;
 use crate::flags::light::LightArgs;
 use crate::flags::render::RenderArgs;
 use crate::flags::values::{MAX_SIDE, Size, Sky, SunFlag};
+use lumbre::CameraOptions;
 use lumbre::core::{Camera, Rgb};
 use lumbre::io::Limits;
 use lumbre::scene::{Background, CompiledScene, Environment, Scene, Sun};
-use lumbre::{CameraOptions, LoadOptions};
 use std::time::Instant;
 
 /// A scene that is ready to be built for a device.
@@ -24,11 +24,12 @@ pub(super) struct Opened {
 /// Loads, lights and compiles the scene, and finds the camera.
 pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened, Failure> {
     let start = Instant::now();
-    let mut loaded = lumbre::load_scene(&args.scene, &LoadOptions::default())?;
+    let load = args.loading.options();
+    let mut loaded = lumbre::load_scene(&args.scene, &load)?;
     loaded.warnings.iter().for_each(console::warning);
     // Before the costly part: is the camera there?
     let aspect = lumbre::authored_aspect(&loaded.scene, &options.choice).map_err(Failure::usage)?;
-    set_environment(&args.light, &mut loaded.scene.environment)?;
+    set_environment(&args.light, &load.limits, &mut loaded.scene.environment)?;
     let sky_added = mind_the_light(&args.light, &mut loaded.scene);
     let compiled = lumbre::compile(&loaded.scene)?;
     compiled.notes.iter().for_each(console::warning);
@@ -81,7 +82,7 @@ fn default_size(aspect: Option<f32>) -> [u32; 2] {
 }
 
 /// Puts the light of the flags in the place of the scene's own.
-fn set_environment(args: &LightArgs, environment: &mut Environment) -> Result<(), Failure> {
+fn set_environment(args: &LightArgs, limits: &Limits, environment: &mut Environment) -> Result<(), Failure> {
     if let Some(sky) = args.sky {
         environment.background = match sky {
             Sky::Color(c) => Background::Constant(c),
@@ -91,7 +92,7 @@ fn set_environment(args: &LightArgs, environment: &mut Environment) -> Result<()
         environment.strength = 1.0;
     }
     if let Some(path) = &args.env {
-        let loaded = lumbre::io::read_environment(path, &Limits::default())?;
+        let loaded = lumbre::io::read_environment(path, limits)?;
         for warning in &loaded.warnings {
             console::warning(format_args!("{}: {warning}", path.display()));
         }

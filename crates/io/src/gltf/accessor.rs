@@ -2,7 +2,7 @@
 
 use super::buffers::{Buffers, View};
 use super::document::Document;
-use crate::{IoError, Limits};
+use crate::{Bound, IoError};
 use gltf::json::accessor::{ComponentType, Type, sparse::Sparse};
 use gltf::json::validation::Checked;
 
@@ -14,13 +14,13 @@ pub(super) struct Accessors<'a> {
 
 /// Elements somewhere in bytes, bounds checked.
 #[derive(Clone, Copy)]
-struct Elements<'a> {
-    bytes: &'a [u8],
-    stride: usize,
-    count: usize,
-    component: ComponentType,
-    lanes: usize,
-    normalized: bool,
+pub(super) struct Elements<'a> {
+    pub(super) bytes: &'a [u8],
+    pub(super) stride: usize,
+    pub(super) count: usize,
+    pub(super) component: ComponentType,
+    pub(super) lanes: usize,
+    pub(super) normalized: bool,
 }
 
 impl Elements<'_> {
@@ -51,7 +51,7 @@ impl Elements<'_> {
     }
 
     /// Element `i`; lanes that the accessor lacks are 1 (the alpha of colours without one).
-    fn vector<const N: usize>(&self, i: usize) -> [f32; N] {
+    pub(super) fn vector<const N: usize>(&self, i: usize) -> [f32; N] {
         std::array::from_fn(|lane| if lane < self.lanes { self.float(i, lane) } else { 1.0 })
     }
 }
@@ -76,6 +76,11 @@ impl<'a> Accessors<'a> {
     /// How many elements an accessor claims; check it against a limit before believing it.
     pub(super) fn count(&self, index: usize, place: &dyn Fn() -> String) -> Result<u64, IoError> {
         Ok(self.accessor(index, place)?.count.0)
+    }
+
+    /// Whether an accessor's whole numbers stand for 0 to 1 or -1 to 1.
+    pub(super) fn normalized(&self, index: usize, place: &dyn Fn() -> String) -> Result<bool, IoError> {
+        Ok(self.accessor(index, place)?.normalized)
     }
 
     /// Checks that the buffer's bytes bear out the count of an accessor of three lanes, and returns it.
@@ -117,8 +122,7 @@ impl<'a> Accessors<'a> {
         let accessor = &self.doc.root.accessors[index];
         let Some(view) = accessor.buffer_view else {
             let here = format!("/accessors/{index}/count");
-            let (count, limit) = (form.count as u64, self.doc.limits.max_zero_filled);
-            Limits::check(self.doc.path, &here, "number of elements without data", count, limit)?;
+            self.doc.limits.hold(Bound::ZeroFilled, self.doc.path, &here, form.count as u64)?;
             return Ok(None);
         };
         let place = || format!("/accessors/{index}/bufferView");

@@ -1,13 +1,17 @@
 //! Buffers and the views into them.
 
 use super::document::Document;
+use super::meshopt;
 use super::uri::Resolver;
-use crate::{IoError, Limits};
+use crate::{Bound, IoError};
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 /// All buffers of a scene.
 pub(super) struct Buffers<'a> {
     data: Vec<Cow<'a, [u8]>>,
+    /// The bytes of compressed views, by the view's index.
+    decoded: HashMap<usize, Vec<u8>>,
 }
 
 /// Bytes of a buffer view.
@@ -21,13 +25,17 @@ pub(super) struct View<'a> {
 impl<'a> Buffers<'a> {
     /// Reads every buffer; `bin` is the binary chunk of a .glb.
     pub(super) fn load(doc: &Document, resolver: &Resolver, bin: Option<&'a [u8]>) -> Result<Self, IoError> {
-        let mut left = doc.limits.max_buffer_bytes;
+        let mut room = doc.limits.room(Bound::BufferBytes);
         let mut data = Vec::with_capacity(doc.root.buffers.len());
         for (i, buffer) in doc.root.buffers.iter().enumerate() {
+            if meshopt::is_stand_in(buffer) {
+                data.push(Cow::Borrowed(&[][..]));
+                continue;
+            }
             let place = format!("/buffers/{i}");
             let bytes = match &buffer.uri {
                 Some(uri) => {
-                    let limit = left.min(doc.limits.max_file_bytes);
+                    let limit = room.min(doc.limits.room(Bound::FileBytes));
                     Cow::Owned(resolver.read(uri, &format!("{place}/uri"), limit)?.bytes)
                 }
                 // Only the first buffer may mean the binary chunk.
@@ -39,8 +47,7 @@ impl<'a> Buffers<'a> {
             if want > have {
                 return Err(doc.error(&place, format!("byteLength is {want}, but there are {have} bytes")));
             }
-            Limits::check(doc.path, &place, "size of all buffers", have, left)?;
-            left -= have;
+            room.take(doc.path, &place, have)?;
             // A file may be longer than the buffer (a .glb's chunk is padded).
             data.push(match bytes {
                 Cow::Borrowed(b) => Cow::Borrowed(&b[..want as usize]),
@@ -50,7 +57,8 @@ impl<'a> Buffers<'a> {
                 }
             });
         }
-        Ok(Buffers { data })
+        let decoded = meshopt::decode_all(doc, &data, room)?;
+        Ok(Buffers { data, decoded })
     }
 
     /// The bytes of a view that `place` refers to.
@@ -61,6 +69,11 @@ impl<'a> Buffers<'a> {
         place: &dyn Fn() -> String,
     ) -> Result<View<'_>, IoError> {
         let view = doc.item(&doc.root.buffer_views, index, "buffer view", place)?;
+        // 0 is not allowed; exporters that write it mean tightly packed.
+        let stride = view.byte_stride.map(|s| s.0).filter(|&s| s > 0);
+        if let Some(bytes) = self.decoded.get(&index) {
+            return Ok(View { bytes, stride });
+        }
         let here = || format!("/bufferViews/{index}");
         let buffer = doc.item(&self.data, view.buffer.value(), "buffer", &here)?;
         let start = view.byte_offset.map_or(0, |o| o.0);
@@ -71,8 +84,6 @@ impl<'a> Buffers<'a> {
             let (length, have) = (view.byte_length.0, buffer.len());
             doc.error(here(), format!("takes {length} bytes from byte {start} of a buffer of {have}"))
         })?;
-        // 0 is not allowed; exporters that write it mean tightly packed.
-        let stride = view.byte_stride.map(|s| s.0).filter(|&s| s > 0);
         Ok(View { bytes, stride })
     }
 }

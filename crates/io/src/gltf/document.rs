@@ -1,7 +1,8 @@
 //! The parsed JSON with its file's name, for messages.
 
+use super::prescan;
 use crate::warnings::Warnings;
-use crate::{IoError, Limits};
+use crate::{Bound, IoError, Limits};
 use gltf::json::{self, Root};
 use std::fmt::Display;
 use std::path::Path;
@@ -16,8 +17,9 @@ pub(super) struct Document<'a> {
 impl<'a> Document<'a> {
     /// Parses the text. Only its form is checked; every index is checked where it is used.
     pub(super) fn parse(path: &'a Path, text: &[u8], limits: &'a Limits) -> Result<Self, IoError> {
-        Limits::check(path, "", "JSON size", text.len() as u64, limits.max_json_bytes)?;
+        limits.hold(Bound::JsonBytes, path, "", text.len() as u64)?;
         let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+        prescan::check(path, text, limits)?;
         let root: Root = json::deserialize::from_slice(text).map_err(|e| IoError::data(path, "JSON", e))?;
         let doc = Document { path, limits, root };
         let version = &doc.root.asset.version;

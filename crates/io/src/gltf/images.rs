@@ -4,7 +4,8 @@ use super::buffers::Buffers;
 use super::document::Document;
 use super::uri::Resolver;
 use crate::image::ldr;
-use crate::{IoError, Limits};
+use crate::limits::Room;
+use crate::{Bound, IoError};
 use lumbre_scene::Image;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -28,20 +29,14 @@ pub(super) fn load_all(
 ) -> Result<Vec<Image>, IoError> {
     let limits = doc.limits;
     let mut encoded = Vec::with_capacity(indices.len());
-    let mut files_left = limits.max_buffer_bytes;
-    let mut decoded = 0u64;
+    let (mut files, mut decoded) = (limits.room(Bound::BufferBytes), limits.room(Bound::TotalImageBytes));
     for &index in indices {
-        let e = fetch(doc, buffers, resolver, index, files_left)?;
-        files_left -= (e.bytes.len() as u64).min(files_left);
+        let e = fetch(doc, buffers, resolver, index, files)?;
+        if let Cow::Owned(bytes) = &e.bytes {
+            files.take(doc.path, &e.place, bytes.len() as u64)?;
+        }
         let (width, height) = e.tell(doc, ldr::dimensions(&e.bytes, doc.path, limits))?;
-        decoded = decoded.saturating_add(u64::from(width) * u64::from(height) * 4);
-        Limits::check(
-            doc.path,
-            &e.place,
-            "decoded size of all images",
-            decoded,
-            limits.max_total_image_bytes,
-        )?;
+        decoded.take(doc.path, &e.place, u64::from(width) * u64::from(height) * 4)?;
         encoded.push(e);
     }
     let results: Vec<Result<Image, IoError>> = encoded
@@ -69,13 +64,13 @@ fn fetch<'a>(
     buffers: &'a Buffers,
     resolver: &Resolver,
     index: usize,
-    limit: u64,
+    room: Room,
 ) -> Result<Encoded<'a>, IoError> {
     let json = &doc.root.images[index];
     let place = format!("/images/{index}");
     let name = json.name.clone();
     if let Some(uri) = &json.uri {
-        let limit = limit.min(doc.limits.max_file_bytes);
+        let limit = room.min(doc.limits.room(Bound::FileBytes));
         let resolved = resolver.read(uri, &format!("{place}/uri"), limit)?;
         let file_name =
             resolved.file.as_ref().and_then(|f| f.file_name()).map(|n| n.to_string_lossy().into_owned());

@@ -34,6 +34,11 @@ impl<'a> Object<'a> {
         self.doc.error(&self.place, format!("should be {expected}"))
     }
 
+    /// An error about what stands under `key`.
+    pub(super) fn error(&self, key: &str, why: impl std::fmt::Display) -> IoError {
+        self.doc.error(format!("{}/{key}", self.place), why)
+    }
+
     fn child(&self, key: &str) -> Option<Object<'a>> {
         let value = self.value.get(key)?;
         Some(Object { doc: self.doc, value, place: format!("{}/{key}", self.place) })

@@ -1,6 +1,11 @@
 //! Materials: metallic-roughness (glTF 2.0, 3.9) and the extensions of `extensions.rs`. Occlusion is not read: light
 //! transport finds it by itself.
 
+mod glossiness;
+mod lobes;
+
+pub(super) use glossiness::Glossy;
+
 use super::document::Document;
 use super::json::Object;
 use super::textures::{TextureInfo, TextureTable};
@@ -49,6 +54,9 @@ impl<'a> Loader<'a, '_> {
         self.emission(&mut m)?;
         self.dielectric(&mut m)?;
         self.transmission(&mut m)?;
+        self.lobes(&mut m)?;
+        // Last: a material that has both models means this one.
+        self.specular_glossiness(&mut m)?;
         m.unlit = self.extension("KHR_materials_unlit")?.is_some();
         Ok(m)
     }

@@ -3,8 +3,8 @@
 use super::accessor::Accessors;
 use super::primitive;
 use crate::warnings::Warnings;
-use crate::{IoError, Limits};
-use gltf::json::mesh::Semantic;
+use crate::{Bound, IoError};
+use gltf::json::mesh::{Mode, Semantic};
 use gltf::json::validation::Checked;
 use lumbre_scene::{Mesh, Primitive};
 use rayon::prelude::*;
@@ -46,7 +46,7 @@ pub(super) fn load_all(accessors: &Accessors) -> Result<(Vec<Mesh>, Warnings), I
 /// file can ask for much.
 fn check_budget(accessors: &Accessors) -> Result<(), IoError> {
     let doc = accessors.doc;
-    let (mut vertices, mut corners) = (0u64, 0u64);
+    let (mut vertices, mut triangles) = (0u64, 0u64);
     for (m, mesh) in doc.root.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             let place = || format!("/meshes/{m}/primitives/{p}");
@@ -59,11 +59,10 @@ fn check_budget(accessors: &Accessors) -> Result<(), IoError> {
                 None => count,
             };
             vertices = vertices.saturating_add(count.min(used));
-            corners = corners.saturating_add(used);
-            let limits = doc.limits;
-            Limits::check(doc.path, &place(), "number of vertices", vertices, limits.max_vertices)?;
-            let most = limits.max_triangles.saturating_mul(3);
-            Limits::check(doc.path, &place(), "number of triangle corners", corners, most)?;
+            let strip = matches!(primitive.mode, Checked::Valid(Mode::TriangleStrip | Mode::TriangleFan));
+            triangles = triangles.saturating_add(if strip { used } else { used / 3 });
+            doc.limits.hold(Bound::Vertices, doc.path, &place(), vertices)?;
+            doc.limits.hold(Bound::Triangles, doc.path, &place(), triangles)?;
         }
     }
     Ok(())

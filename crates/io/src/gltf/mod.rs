@@ -8,13 +8,16 @@ mod accessor;
 mod buffers;
 mod container;
 mod document;
+mod draco;
 mod extensions;
 mod images;
 mod json;
 mod lights;
 mod material;
 mod mesh;
+mod meshopt;
 mod nodes;
+mod prescan;
 mod primitive;
 mod textures;
 mod uri;
@@ -24,6 +27,7 @@ use crate::{IoError, LoadOptions, Loaded};
 use accessor::Accessors;
 use buffers::Buffers;
 use document::Document;
+pub use extensions::{GLTF_EXTENSIONS, GltfExtension, Support};
 use lumbre_scene::{Environment, Scene};
 use std::path::Path;
 use textures::TextureTable;
@@ -67,7 +71,8 @@ fn load(
         || mesh::load_all(&accessors),
     );
     let (meshes, mesh_warnings) = meshes?;
-    let images = images?;
+    let mut images = images?;
+    table.make_roughness(&mut images, path, &options.limits)?;
     warnings.append(mesh_warnings);
 
     let scene = Scene {

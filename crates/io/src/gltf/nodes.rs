@@ -3,8 +3,8 @@
 use super::document::Document;
 use super::json::Object;
 use super::lights;
-use crate::IoError;
 use crate::warnings::Warnings;
+use crate::{Bound, IoError};
 use glam::{Mat4, Quat, Vec3, Vec4};
 use gltf::json::validation::Checked;
 use lumbre_scene::{Camera, CameraId, LightId, MeshId, Node, NodeId, Projection};
@@ -23,6 +23,8 @@ pub(super) fn load(doc: &Document, light_count: usize, warnings: &mut Warnings) 
     for i in 0..doc.root.nodes.len() {
         nodes.push(load_node(doc, i, (light_count, &camera_ids), warnings)?);
     }
+    let instances = nodes.iter().filter(|n| n.mesh.is_some()).count() as u64;
+    doc.limits.hold(Bound::Instances, doc.path, "/nodes", instances)?;
     let parentless = check_trees(doc, &nodes)?;
     let roots = load_roots(doc, parentless, warnings)?;
     // Most cameras are named by their node only.
@@ -160,10 +162,11 @@ fn check_trees(doc: &Document, nodes: &[Node]) -> Result<Vec<NodeId>, IoError> {
         (0..nodes.len() as u32).map(NodeId).filter(|n| parent[n.index()].is_none()).collect();
     // With one parent each, what no root reaches runs in circles.
     let mut reached = vec![false; nodes.len()];
-    let mut stack = roots.clone();
-    while let Some(id) = stack.pop() {
+    let mut stack: Vec<(NodeId, u64)> = roots.iter().map(|&root| (root, 1)).collect();
+    while let Some((id, depth)) = stack.pop() {
+        doc.limits.hold(Bound::NodeDepth, doc.path, &format!("/nodes/{}", id.0), depth)?;
         reached[id.index()] = true;
-        stack.extend(&nodes[id.index()].children);
+        stack.extend(nodes[id.index()].children.iter().map(|&child| (child, depth + 1)));
     }
     match reached.iter().position(|r| !r) {
         Some(i) => Err(doc.error(format!("/nodes/{i}"), "is its own ancestor; nodes must form trees")),

@@ -1,6 +1,7 @@
 //! One primitive of a mesh: attributes and indices to a triangle list.
 
 use super::accessor::Accessors;
+use super::draco::{self, Claims, DracoMesh};
 use crate::IoError;
 use crate::warnings::Warnings;
 use glam::{Vec2, Vec3, Vec4};
@@ -16,7 +17,7 @@ pub(super) fn load(
     place: &str,
     warnings: &mut Warnings,
 ) -> Result<Option<Primitive>, IoError> {
-    let reader = Reader { accessors, json, place };
+    let mut reader = Reader { accessors, json, place, draco: None };
     let Checked::Valid(mode) = json.mode else {
         return Err(accessors.doc.error(format!("{place}/mode"), "is none of glTF's modes"));
     };
@@ -28,8 +29,10 @@ pub(super) fn load(
         warnings.add(place, "a primitive without positions is skipped");
         return Ok(None);
     };
-    reader.refuse_compressed(position)?;
+    reader.decompress(mode, position)?;
     let count = reader.vertex_count(position)?;
+    // Draco lists triangles, whatever they were.
+    let mode = if reader.draco.is_some() { Mode::Triangles } else { mode };
     let mut indices = triangle_list(mode, reader.corners(count)?, place, warnings);
     if indices.is_empty() {
         warnings.add(place, "a primitive without triangles is skipped");
@@ -52,6 +55,8 @@ struct Reader<'a> {
     accessors: &'a Accessors<'a>,
     json: &'a gltf::json::mesh::Primitive,
     place: &'a str,
+    /// What a compressed primitive holds.
+    draco: Option<DracoMesh<'a>>,
 }
 
 impl Reader<'_> {
@@ -59,13 +64,18 @@ impl Reader<'_> {
         self.json.attributes.get(&Checked::Valid(semantic)).map(|i| i.value())
     }
 
-    /// A primitive whose only data is compressed cannot be read, even where the file calls the compression optional.
-    fn refuse_compressed(&self, position: usize) -> Result<(), IoError> {
-        const DRACO: &str = "KHR_draco_mesh_compression";
-        let draco = self.json.extensions.as_ref().is_some_and(|e| e.others.contains_key(DRACO));
-        if draco && !self.accessors.has_data(position) {
-            return Err(self.accessors.doc.unsupported(self.place, format!("the extension {DRACO}")));
+    /// Decodes a compressed primitive. Where its accessors have the same data uncompressed, that is read.
+    fn decompress(&mut self, mode: Mode, position: usize) -> Result<(), IoError> {
+        if !draco::is_used(self.json) || self.accessors.has_data(position) {
+            return Ok(());
         }
+        let vertices = self.accessors.count(position, &|| format!("{}/attributes/POSITION", self.place))?;
+        let corners = match self.json.indices {
+            Some(i) => self.accessors.count(i.value(), &|| format!("{}/indices", self.place))?,
+            None => vertices,
+        };
+        let claims = Claims { vertices, corners, mode };
+        self.draco = DracoMesh::load(self.accessors, self.json, self.place, &claims)?;
         Ok(())
     }
 
@@ -74,7 +84,11 @@ impl Reader<'_> {
         let here = || format!("{}/attributes", self.place);
         // Checked before anything is made as long as it.
         let at = || format!("{}/POSITION", here());
-        let count = self.accessors.checked_count(position, &at)?;
+        let count = match self.draco {
+            // It holds as many as the accessor says.
+            Some(_) => self.accessors.count(position, &at)? as usize,
+            None => self.accessors.checked_count(position, &at)?,
+        };
         for (semantic, index) in &self.json.attributes {
             let other = self.accessors.count(index.value(), &here)?;
             if other != count as u64 {
@@ -92,12 +106,17 @@ impl Reader<'_> {
 
     /// The vertex of every corner, in the order of the file, each checked.
     fn corners(&self, vertices: usize) -> Result<Vec<u32>, IoError> {
-        let Some(indices) = self.json.indices else { return Ok((0..vertices as u32).collect()) };
         let here = || format!("{}/indices", self.place);
-        let corners = self.accessors.integers(indices.value(), &here)?;
+        let corners = match (&self.draco, self.json.indices) {
+            (Some(draco), _) => draco.corners(),
+            (None, Some(indices)) => self.accessors.integers(indices.value(), &here)?,
+            (None, None) => return Ok((0..vertices as u32).collect()),
+        };
         if let Some(at) = corners.iter().position(|&v| v as usize >= vertices) {
             let why = format!("element {at} is {}, but there are {vertices} vertices", corners[at]);
-            return Err(self.accessors.doc.error(format!("/accessors/{}", indices.value()), why));
+            let list = self.json.indices.filter(|_| self.draco.is_none());
+            let place = list.map_or_else(here, |i| format!("/accessors/{}", i.value()));
+            return Err(self.accessors.doc.error(place, why));
         }
         Ok(corners)
     }
@@ -110,6 +129,16 @@ impl Reader<'_> {
     ) -> Result<Vec<[f32; N]>, IoError> {
         let Some(index) = self.attribute(semantic.clone()) else { return Ok(Vec::new()) };
         let here = || format!("{}/attributes/{}", self.place, semantic.to_string());
+        if let Some(draco) = &self.draco {
+            let normalized = self.accessors.normalized(index, &here)?;
+            if let Some(values) = draco.floats(&semantic, normalized, lanes, select)? {
+                return Ok(values);
+            }
+            // What the stream leaves out lies in the accessor; positions would be zeros there.
+            if semantic == Semantic::Positions {
+                return Err(self.accessors.doc.error(here(), "is not in the compressed data"));
+            }
+        }
         self.accessors.floats(index, lanes, select, &here)
     }
 

@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use super::json::Object;
+use super::material::Glossy;
 use crate::IoError;
 use crate::warnings::Warnings;
 use gltf::json::Value;
@@ -18,6 +19,8 @@ pub(super) struct TextureTable {
     images: Vec<usize>,
     texture_ids: HashMap<usize, TextureId>,
     image_ids: HashMap<usize, ImageId>,
+    /// Textures of roughness, made from others once the images are decoded.
+    pub(super) glossy: Glossy,
 }
 
 /// How a material names a texture.
@@ -68,17 +71,7 @@ impl TextureTable {
         }
         let here = || format!("/textures/{index}");
         let json = doc.item(&doc.root.textures, index, "texture", &|| format!("{place}/index"))?;
-        // The JSON types write an absent source as the largest index.
-        if json.source.value() == u32::MAX as usize {
-            let formats: Vec<_> =
-                json.extensions.iter().flat_map(|e| e.others.keys().map(String::as_str)).collect();
-            return Err(match formats.is_empty() {
-                true => doc.error(here(), "has no source"),
-                false => doc.unsupported(here(), format!("the extension {}", formats.join(", "))),
-            });
-        }
-        let source = json.source.value();
-        doc.item(&doc.root.images, source, "image", &|| format!("/textures/{index}/source"))?;
+        let source = source(doc, json, &here())?;
         let images = &mut self.images;
         let image = *self.image_ids.entry(source).or_insert_with(|| {
             images.push(source);
@@ -102,6 +95,33 @@ impl TextureTable {
         self.texture_ids.insert(index, id);
         Ok(id)
     }
+}
+
+/// The image of the texture that stands at `place`. Extensions name it first: what they leave in `source` is for loaders
+/// without them.
+fn source(doc: &Document, json: &gltf::json::Texture, place: &str) -> Result<usize, IoError> {
+    let extensions = json.extensions.as_ref().map(|e| &e.others);
+    let mut found = None;
+    for name in ["EXT_texture_webp", "KHR_texture_basisu"] {
+        let here = format!("{place}/extensions/{name}");
+        let object = Object::new(doc, extensions.and_then(|e| e.get(name)), || here.clone())?;
+        let source = object.map(|o| o.index("source")).transpose()?.flatten();
+        found = found.or(source.map(|s| (s, format!("{here}/source"))));
+    }
+    let (source, here) = match found {
+        Some(found) => found,
+        // The JSON types write an absent source as the largest index.
+        None if json.source.value() == u32::MAX as usize => {
+            let formats: Vec<_> = extensions.into_iter().flat_map(|e| e.keys().map(String::as_str)).collect();
+            return Err(match formats.is_empty() {
+                true => doc.error(place, "has no source"),
+                false => doc.unsupported(place, format!("the extension {}", formats.join(", "))),
+            });
+        }
+        None => (json.source.value(), format!("{place}/source")),
+    };
+    doc.item(&doc.root.images, source, "image", &|| here.clone())?;
+    Ok(source)
 }
 
 fn wrap(doc: &Document, mode: Checked<WrappingMode>, place: &str) -> Result<Wrap, IoError> {

@@ -3,6 +3,7 @@
 
 use crate::IoError;
 use crate::files::read_file;
+use crate::limits::Room;
 use base64::Engine;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -43,11 +44,12 @@ impl<'a> Resolver<'a> {
         Ok(Resolver { scene: path, folder })
     }
 
-    /// Reads what `uri`, found at `place`, names: at most `limit` bytes.
-    pub(super) fn read(&self, uri: &str, place: &str, limit: u64) -> Result<Resolved, IoError> {
+    /// Reads what `uri`, found at `place`, names, within `limit`.
+    pub(super) fn read(&self, uri: &str, place: &str, limit: impl Into<Room>) -> Result<Resolved, IoError> {
+        let limit = limit.into();
         if let Some(data) = strip_scheme(uri, "data") {
             let bytes = decode_data(data).map_err(|why| IoError::data(self.scene, place, why))?;
-            crate::Limits::check(self.scene, place, "data size", bytes.len() as u64, limit)?;
+            limit.check(self.scene, place, bytes.len() as u64)?;
             return Ok(Resolved { bytes, file: None });
         }
         let refuse = |why: String| {

@@ -6,7 +6,7 @@
 
 use super::LinearImage;
 use super::{exr_dwa, exr_header};
-use crate::{IoError, Limits, files, guard};
+use crate::{Bound, IoError, Limits, files, guard};
 use ::exr::block;
 use ::exr::image::read::read;
 use ::exr::image::write::WritableImage;
@@ -192,7 +192,7 @@ fn check_headers(path: &Path, headers: &[Header], file: usize, limits: &Limits) 
         bytes = bytes.saturating_add(size.0.saturating_mul(size.1).saturating_mul(channels * 4));
         chunks = chunks.saturating_add(h.chunk_count as u64);
     }
-    Limits::check(path, "", "decoded image size", bytes, limits.max_image_bytes)?;
+    limits.hold(Bound::ImageBytes, path, "", bytes)?;
     // Each chunk has an entry of 8 bytes in a table and a header of 8 bytes or more.
     if chunks.saturating_mul(16) > file as u64 {
         return Err(IoError::data(path, "", format!("{chunks} chunks cannot be held by {file} bytes")));

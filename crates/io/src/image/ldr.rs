@@ -1,43 +1,81 @@
-//! PNG and JPEG to texels, through the `image` crate. Sizes are read and checked before anything is decoded.
+//! PNG, JPEG, WebP, KTX2, BMP and TGA to texels, KTX2 by `ktx2.rs`, the others through the `image` crate. Sizes are read
+//! and checked before anything is decoded.
 
-use super::LinearImage;
+use super::{LinearImage, ktx2};
 use crate::{IoError, Limits, guard};
-use ::image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+use ::image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbaImage};
 use lumbre_core::Rgb;
 use lumbre_core::color::{srgb_decode, srgb_decode_table};
 use std::io::Cursor;
 use std::path::Path;
 
-/// No PNG holds more pixels per byte: deflate reaches at most 1032:1 (RFC 1951: 258 bytes by 2 bits), 8 pixels to a byte.
-/// A JPEG spends two bits on 64 pixels or more. A header that claims more than this is lying about its size.
-const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
-
 /// Bytes of a decoded texel.
 const RGBA8: u64 = 4;
 
+/// The formats that are read, for messages.
+const READ: &str = "PNG, JPEG, WebP, KTX2, BMP and TGA are read";
+
+/// What decodes an image.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Crate(ImageFormat),
+    Ktx2,
+}
+
 /// The format, by the first bytes: names and MIME types are often wrong.
-fn format(bytes: &[u8], path: &Path) -> Result<ImageFormat, IoError> {
-    let named =
-        |what: &str| Err(IoError::unsupported(path, "", format!("{what} images; PNG and JPEG are read")));
-    match bytes {
-        [0x89, b'P', b'N', b'G', ..] => Ok(ImageFormat::Png),
-        [0xff, 0xd8, ..] => Ok(ImageFormat::Jpeg),
-        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => named("WebP"),
-        [0xab, b'K', b'T', b'X', ..] => named("KTX"),
-        [b'B', b'M', ..] => named("BMP"),
-        [b'G', b'I', b'F', ..] => named("GIF"),
-        [b'D', b'D', b'S', b' ', ..] => named("DDS"),
-        _ => Err(IoError::data(path, "", "not an image of a known kind")),
+fn format(bytes: &[u8], path: &Path) -> Result<Format, IoError> {
+    let named = |what: &str| Err(IoError::unsupported(path, "", format!("{what} images; {READ}")));
+    Ok(Format::Crate(match bytes {
+        [0x89, b'P', b'N', b'G', ..] => ImageFormat::Png,
+        [0xff, 0xd8, ..] => ImageFormat::Jpeg,
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => ImageFormat::WebP,
+        [0xab, b'K', b'T', b'X', ..] if ktx2::is_ktx2(bytes) => return Ok(Format::Ktx2),
+        [0xab, b'K', b'T', b'X', ..] => return named("KTX (version 1)"),
+        [b'B', b'M', ..] => ImageFormat::Bmp,
+        [b'G', b'I', b'F', ..] => return named("GIF"),
+        [b'D', b'D', b'S', b' ', ..] => return named("DDS"),
+        _ if is_tga(bytes) => ImageFormat::Tga,
+        _ => return Err(IoError::data(path, "", format!("not an image of a known kind; {READ}"))),
+    }))
+}
+
+/// Whether a header makes sense as that of a TGA (Truevision 1991), which has no mark at its beginning.
+fn is_tga(bytes: &[u8]) -> bool {
+    let Some(header) = bytes.first_chunk::<18>() else { return false };
+    let [_, has_map, kind, _, _, map_low, map_high, map_depth, ..] = *header;
+    let side = |at: usize| u16::from_le_bytes([header[at], header[at + 1]]);
+    let (depth, descriptor) = (header[16], header[17]);
+    let map_fits = match (kind, has_map) {
+        // Colours from a map.
+        (1 | 9, 1) => (map_low, map_high) != (0, 0) && matches!(map_depth, 15 | 16 | 24 | 32) && depth <= 16,
+        // Colours, or grey; a map may lie there unused.
+        (2 | 10, 0 | 1) => matches!(depth, 15 | 16 | 24 | 32),
+        (3 | 11, 0 | 1) => matches!(depth, 8 | 16),
+        _ => false,
+    };
+    // The two highest bits of the descriptor are always 0, the lowest four are the bits of alpha.
+    map_fits && side(12) > 0 && side(14) > 0 && descriptor & 0xc0 == 0 && descriptor & 0xf <= 8
+}
+
+/// Most pixels to a byte. A header that claims more is lying about its size.
+fn most_pixels_per_byte(format: ImageFormat) -> u64 {
+    match format {
+        // A plain picture of any size takes a few bytes; no side exceeds 16,384.
+        ImageFormat::WebP => u64::MAX,
+        // Deflate reaches at most 1032:1 (RFC 1951: 258 bytes by 2 bits), and a PNG has up to 8 pixels to a byte. A JPEG
+        // spends two bits on 64 pixels or more; runs in BMP and TGA make at most 255 pixels of two bytes.
+        _ => 8 * 1032,
     }
 }
 
 fn open<'a>(
     bytes: &'a [u8],
+    format: ImageFormat,
     path: &Path,
     limits: &Limits,
     decoded_texel: u64,
 ) -> Result<(impl ImageDecoder + 'a, u32, u32), IoError> {
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format(bytes, path)?);
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut inner = ::image::Limits::default();
     // Room for the decoder's own rows beside the picture.
     inner.max_alloc = Some(limits.max_image_bytes.saturating_mul(2).saturating_add(1 << 20));
@@ -46,7 +84,7 @@ fn open<'a>(
     let (width, height) = decoder.dimensions();
     let texel = decoded_texel.max(u64::from(decoder.color_type().bytes_per_pixel()));
     limits.check_image(path, (width.into(), height.into()), texel)?;
-    let most = (bytes.len() as u64).saturating_mul(MAX_PIXELS_PER_BYTE);
+    let most = (bytes.len() as u64).saturating_mul(most_pixels_per_byte(format));
     if u64::from(width) * u64::from(height) > most {
         let why = format!("{width} x {height} pixels cannot be held by {} bytes", bytes.len());
         return Err(IoError::data(path, "", why));
@@ -56,13 +94,23 @@ fn open<'a>(
 
 /// Columns and rows, from the header; checked.
 pub(crate) fn dimensions(bytes: &[u8], path: &Path, limits: &Limits) -> Result<(u32, u32), IoError> {
-    guard::decode(path, || open(bytes, path, limits, RGBA8).map(|(_, width, height)| (width, height)))
+    guard::decode(path, || match format(bytes, path)? {
+        Format::Ktx2 => ktx2::dimensions(bytes, path, limits, RGBA8),
+        Format::Crate(f) => open(bytes, f, path, limits, RGBA8).map(|(_, width, height)| (width, height)),
+    })
 }
 
 fn decode(bytes: &[u8], path: &Path, limits: &Limits, decoded_texel: u64) -> Result<DynamicImage, IoError> {
-    guard::decode(path, || {
-        let (decoder, ..) = open(bytes, path, limits, decoded_texel)?;
-        DynamicImage::from_decoder(decoder).map_err(|e| IoError::data(path, "", e))
+    guard::decode(path, || match format(bytes, path)? {
+        Format::Ktx2 => {
+            let (width, height, rgba8) = ktx2::decode(bytes, path, limits, decoded_texel)?;
+            let image = RgbaImage::from_raw(width, height, rgba8);
+            image.map(DynamicImage::from).ok_or_else(|| IoError::data(path, "", "its data is damaged"))
+        }
+        Format::Crate(f) => {
+            let (decoder, ..) = open(bytes, f, path, limits, decoded_texel)?;
+            DynamicImage::from_decoder(decoder).map_err(|e| IoError::data(path, "", e))
+        }
     })
 }
 

@@ -4,6 +4,7 @@ pub(crate) mod exr;
 mod exr_dwa;
 mod exr_header;
 mod hdr;
+mod ktx2;
 pub(crate) mod ldr;
 pub(crate) mod png;
 
