@@ -22,7 +22,11 @@ pub(crate) struct LoadingArgs {
 impl LoadingArgs {
     /// The same in the library's terms.
     pub(crate) fn options(&self) -> LoadOptions {
-        LoadOptions { limits: self.limits.limits(), asset_dirs: self.asset_dir.clone() }
+        LoadOptions {
+            limits: self.limits.limits(),
+            asset_dirs: self.asset_dir.clone(),
+            ..LoadOptions::default()
+        }
     }
 }
 
