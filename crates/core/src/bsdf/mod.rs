@@ -14,6 +14,9 @@
 
 pub mod albedo;
 mod albedo_data;
+pub mod aniso_albedo;
+mod aniso_albedo_deficit;
+mod aniso_albedo_schlick;
 pub mod compensation;
 pub mod dielectric;
 pub mod dielectric_base;
@@ -22,6 +25,7 @@ pub mod metal;
 mod mixture;
 mod params;
 pub mod thin;
+pub mod thin_film;
 
 pub use lambert::DiffuseSampling;
 pub use mixture::Bsdf;
