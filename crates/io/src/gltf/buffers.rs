@@ -57,7 +57,7 @@ impl<'a> Buffers<'a> {
                 }
             });
         }
-        let decoded = meshopt::decode_all(doc, &data, left)?;
+        let decoded = meshopt::decode_all(doc, &data, room)?;
         Ok(Buffers { data, decoded })
     }
 

@@ -3,7 +3,8 @@
 
 use super::document::Document;
 use super::json::Object;
-use crate::{IoError, Limits, guard};
+use crate::limits::Room;
+use crate::{IoError, guard};
 use gltf::json::Value;
 use meshoptimizer_rs::{Workspace, codec};
 use rayon::prelude::*;
@@ -47,11 +48,11 @@ enum Filter {
     Color,
 }
 
-/// The decoded bytes of every compressed view, by its index; at most `left` bytes in all.
+/// The decoded bytes of every compressed view, by its index; within what is left of the room for buffers.
 pub(super) fn decode_all(
     doc: &Document,
     buffers: &[impl AsRef<[u8]>],
-    mut left: u64,
+    mut room: Room,
 ) -> Result<HashMap<usize, Vec<u8>>, IoError> {
     let mut jobs = Vec::new();
     for (index, view) in doc.root.buffer_views.iter().enumerate() {
@@ -59,8 +60,7 @@ pub(super) fn decode_all(
         let Some((name, value)) = named else { continue };
         let job = Job::new(doc, buffers, index, (name, value))?;
         let bytes = job.count as u64 * job.stride as u64;
-        Limits::check(doc.path, &job.place, "size of all buffers", bytes, left)?;
-        left -= bytes;
+        room.take(doc.path, &job.place, bytes)?;
         jobs.push(job);
     }
     let decode = |job: &Job| {

@@ -7,6 +7,7 @@
 
 use super::super::textures::TextureTable;
 use super::Loader;
+use crate::limits::Bound;
 use crate::{IoError, Limits};
 use lumbre_core::Rgb;
 use lumbre_scene::{Image, ImageId, Material, TextureId};
@@ -75,9 +76,8 @@ impl TextureTable {
             let next = ImageId((images.len() + jobs.len()) as u32);
             texture.image = *made.entry((source, factor.to_bits())).or_insert(next);
             if texture.image == next {
-                let (what, limit) = ("decoded size of all images", limits.max_total_image_bytes);
                 bytes = bytes.saturating_add(images[source.index()].rgba8.len() as u64);
-                Limits::check(path, "/images", what, bytes, limit)?;
+                limits.hold(Bound::TotalImageBytes, path, "/images", bytes)?;
                 jobs.push((source, factor));
             }
         }
