@@ -1,6 +1,7 @@
 //! Test tools of Lumbre: statistical tests of samplers and models, reference quadratures, scene builders.
 #![forbid(unsafe_code)]
 
+pub mod aniso_tables;
 pub mod bsdf_rows;
 pub mod bsdf_tables;
 pub mod chi_square;

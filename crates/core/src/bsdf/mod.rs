@@ -19,6 +19,9 @@
 
 pub mod albedo;
 mod albedo_data;
+pub mod aniso_albedo;
+mod aniso_albedo_deficit;
+mod aniso_albedo_schlick;
 pub mod coat;
 pub mod compensation;
 pub mod dielectric;
@@ -34,6 +37,7 @@ pub mod phong;
 pub mod sheen;
 mod sheen_data;
 pub mod thin;
+pub mod thin_film;
 
 pub use lambert::DiffuseSampling;
 pub use layered::Bsdf;
