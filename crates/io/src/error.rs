@@ -220,8 +220,9 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Control characters, which could break the line or steer a terminal, become escapes.
-pub(crate) fn one_line(text: &str) -> String {
+/// Text from a file made fit for a line on a terminal: control characters, which could break it or steer the terminal, become
+/// escapes.
+pub fn one_line(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.trim().chars() {
         if c == '\n' {

@@ -4,6 +4,7 @@
 //! cannot lead out of its folder, and whatever is wrong ends in one [`IoError`] that names the file and the place.
 #![forbid(unsafe_code)]
 
+mod describe;
 mod error;
 mod files;
 mod gltf;
@@ -11,9 +12,11 @@ mod guard;
 mod image;
 mod limits;
 mod open;
+mod resolver;
 mod warnings;
 
-pub use error::{ErrorKind, IoError};
+pub use describe::{Description, UsedExtension, describe_scene};
+pub use error::{ErrorKind, IoError, one_line};
 pub use files::check_writable;
 pub use gltf::{GLTF_EXTENSIONS, GltfExtension, Support};
 pub use image::exr::{ExrImage, ExrLayer, read_exr, write_exr};

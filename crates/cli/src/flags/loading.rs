@@ -4,6 +4,7 @@ use super::values::{bytes, count};
 use clap::Args;
 use lumbre::LoadOptions;
 use lumbre::io::{Bound, Limits, SceneChoice};
+use std::path::PathBuf;
 
 /// How to read the scene.
 #[derive(Args, Debug)]
@@ -17,6 +18,10 @@ pub(crate) struct LoadingArgs {
     #[arg(long, value_name = "NAME")]
     pub(crate) variant: Option<String>,
 
+    /// Folder from which textures and other files that the scene names may be read too. May be given several times.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) asset_dir: Vec<PathBuf>,
+
     // Last, since its heading holds for all that follows.
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
@@ -26,7 +31,7 @@ impl LoadingArgs {
     /// The same in the library's terms.
     pub(crate) fn options(&self) -> LoadOptions {
         let (scene, variant) = (self.which_scene.clone().unwrap_or_default(), self.variant.clone());
-        LoadOptions { limits: self.limits.limits(), scene, variant }
+        LoadOptions { limits: self.limits.limits(), asset_dirs: self.asset_dir.clone(), scene, variant }
     }
 
     /// Names and values of the flags that choose what is seen, for the metadata of a file.

@@ -8,6 +8,7 @@ mod accessor;
 mod buffers;
 mod cameras;
 mod container;
+mod describe;
 mod document;
 mod draco;
 mod extensions;
@@ -22,9 +23,11 @@ mod nodes;
 mod prescan;
 mod primitive;
 mod textures;
-mod uri;
 mod variants;
 
+pub(crate) use describe::describe;
+
+use crate::resolver::Resolver;
 use crate::warnings::Warnings;
 use crate::{IoError, LoadOptions, Loaded};
 use accessor::Accessors;
@@ -34,7 +37,6 @@ pub use extensions::{GLTF_EXTENSIONS, GltfExtension, Support};
 use lumbre_scene::{Environment, Scene};
 use std::path::Path;
 use textures::TextureTable;
-use uri::Resolver;
 
 /// Loads a binary glTF from its bytes; `path` is where they came from.
 pub(crate) fn load_glb(path: &Path, bytes: Vec<u8>, options: &LoadOptions) -> Result<Loaded, IoError> {
@@ -61,7 +63,7 @@ fn load(
         variants::choose(&mut doc, variant)?;
     }
     doc.warn_of_motion(&mut warnings);
-    let resolver = Resolver::new(path)?;
+    let resolver = Resolver::new(path, options)?;
     let buffers = Buffers::load(&doc, &resolver, bin)?;
 
     // What is small comes first, in order; it says which images are needed.
