@@ -1,9 +1,9 @@
 //! What a glTF says of itself.
 
+use super::container;
 use super::document::Document;
 use super::extensions::GLTF_EXTENSIONS;
 use super::json::Object;
-use super::container;
 use crate::describe::{Description, UsedExtension};
 use crate::warnings::Warnings;
 use crate::{IoError, LoadOptions};
