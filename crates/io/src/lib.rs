@@ -12,6 +12,7 @@ mod guard;
 mod image;
 mod limits;
 mod open;
+mod resolver;
 mod warnings;
 
 pub use describe::{Description, UsedExtension, describe_scene};
@@ -22,4 +23,4 @@ pub use image::exr::{ExrImage, ExrLayer, read_exr, write_exr};
 pub use image::png::write_png;
 pub use image::{LinearImage, LoadedEnvironment, Range, read_environment, read_linear_image, read_picture};
 pub use limits::{Bound, Limits};
-pub use open::{LoadOptions, Loaded, SCENE_FORMATS, load_scene};
+pub use open::{LoadOptions, Loaded, SCENE_FORMATS, SceneChoice, load_scene};

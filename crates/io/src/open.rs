@@ -3,13 +3,31 @@
 use crate::describe::Description;
 use crate::{IoError, Limits, files, gltf};
 use lumbre_scene::Scene;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How to load.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LoadOptions {
     /// Bounds on what the file may ask for.
     pub limits: Limits,
+    /// Which of the file's scenes.
+    pub scene: SceneChoice,
+    /// Which set of materials (`KHR_materials_variants`), by name; `None`: the materials that stand without one.
+    pub variant: Option<String>,
+    /// Folders beside that of the scene from which files that it names may be read.
+    pub asset_dirs: Vec<PathBuf>,
+}
+
+/// Which scene of a file that holds several.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum SceneChoice {
+    /// The one that the file names as such, else its first.
+    #[default]
+    Default,
+    /// By its place in the file, from 0.
+    Index(usize),
+    /// By its name; the first one of that name.
+    Name(String),
 }
 
 /// A scene, and what there is to say about how it was read.
@@ -28,7 +46,7 @@ pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb)";
 ///
 /// # Errors
 /// `CannotOpen` if the file or one that it names cannot be read; `BadData` if it is no scene, is damaged, requires
-/// what is not supported, or exceeds a limit.
+/// what is not supported, or exceeds a limit; `BadChoice` if the options name what it does not have.
 pub fn load_scene(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loaded, IoError> {
     let path = path.as_ref();
     let bytes = files::read_file(path, options.limits.max_file_bytes)?;

@@ -8,10 +8,7 @@ use lumbre_scene::{AlphaMode, Projection, Scene};
 use std::path::{Path, PathBuf};
 
 /// Scenes that require what is not supported, and what that is.
-const REFUSED: &[(&str, &str)] = &[(
-    "gltf-sample-assets/IridescenceSuzanne/glTF-Binary/IridescenceSuzanne.glb",
-    "KHR_materials_iridescence",
-)];
+const REFUSED: &[(&str, &str)] = &[];
 
 fn triangles(scene: &Scene) -> usize {
     scene.meshes.iter().flat_map(|m| &m.primitives).map(|p| p.indices.len() / 3).sum()

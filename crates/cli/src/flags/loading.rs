@@ -4,11 +4,16 @@ use super::values::{bytes, count};
 use clap::Args;
 use lumbre::LoadOptions;
 use lumbre::io::{Bound, Limits};
+use std::path::PathBuf;
 
 /// How to read the scene.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Scene")]
 pub(crate) struct LoadingArgs {
+    /// Folder from which textures and other files that the scene names may be read too. May be given several times.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) asset_dir: Vec<PathBuf>,
+
     // Last, since its heading holds for all that follows.
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
@@ -17,7 +22,11 @@ pub(crate) struct LoadingArgs {
 impl LoadingArgs {
     /// The same in the library's terms.
     pub(crate) fn options(&self) -> LoadOptions {
-        LoadOptions { limits: self.limits.limits() }
+        LoadOptions {
+            limits: self.limits.limits(),
+            asset_dirs: self.asset_dir.clone(),
+            ..LoadOptions::default()
+        }
     }
 }
 
