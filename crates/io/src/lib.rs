@@ -10,7 +10,9 @@ mod gltf;
 mod guard;
 mod image;
 mod limits;
+mod obj;
 mod open;
+mod polygon;
 mod resolver;
 mod warnings;
 

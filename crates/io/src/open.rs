@@ -1,6 +1,6 @@
 //! Opens a scene, whatever its format.
 
-use crate::{IoError, Limits, files, gltf};
+use crate::{IoError, Limits, files, gltf, obj};
 use lumbre_scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub struct Loaded {
 }
 
 /// What [`load_scene`] opens, for messages.
-pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb)";
+pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj)";
 
 /// Loads a scene. The format is told by the first bytes, then by the extension.
 ///
@@ -39,6 +39,7 @@ pub fn load_scene(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loade
     }
     match extension.as_str() {
         "gltf" => gltf::load_json(path, &bytes, options),
+        "obj" => obj::load(path, &bytes, options),
         "glb" => Err(IoError::data(path, "byte 0", "not a binary glTF: it does not begin with `glTF`")),
         _ => Err(IoError::unsupported(
             path,
