@@ -1,7 +1,7 @@
 //! The table of surfaces that every BSDF test walks: one row per model and choice of parameters.
 
 use lumbre_core::Spectrum;
-use lumbre_core::bsdf::{Bsdf, BsdfParams, CoatParams, DiffuseSampling, SheenParams};
+use lumbre_core::bsdf::{Bsdf, BsdfParams, CoatParams, DiffuseSampling, GlossParams, SheenParams};
 use lumbre_core::math::Vec3;
 
 /// One surface under test.
@@ -32,7 +32,8 @@ impl Row {
     }
     /// True for the boundary of a solid that transmits.
     pub fn refracts(&self) -> bool {
-        self.params.transmission > 0.0 && self.params.metallic < 1.0 && !self.params.thin
+        let transmits = self.params.transmission > 0.0 || self.params.diffuse_transmission > 0.0;
+        transmits && self.params.metallic < 1.0 && !self.params.thin
     }
 }
 
@@ -137,6 +138,90 @@ pub fn transmissive() -> Vec<Row> {
     ]
 }
 
+/// Rough and transmitting diffuse bases, bare and under an interface.
+pub fn diffuse() -> Vec<Row> {
+    let rough = |name, diffuse_roughness: f32, specular: f32| {
+        row(name, move |p| {
+            p.diffuse_roughness = diffuse_roughness;
+            p.specular = specular;
+            p.roughness = 0.5;
+        })
+    };
+    let leaf = |name, share: f32, specular: f32, diffuse_roughness: f32| {
+        row(name, move |p| {
+            p.diffuse_transmission = share;
+            p.diffuse_transmission_color = Spectrum::new(0.3, 0.9, 0.2);
+            p.diffuse_roughness = diffuse_roughness;
+            p.specular = specular;
+            p.roughness = 0.4;
+        })
+    };
+    vec![
+        rough("rough diffuse 0.3", 0.3, 0.0),
+        rough("rough diffuse 1.0", 1.0, 0.0),
+        rough("rough diffuse under an interface", 0.8, 1.0),
+        row("rough diffuse uniform", |p| {
+            p.diffuse_roughness = 0.6;
+            p.specular = 0.0;
+            p.diffuse_sampling = DiffuseSampling::Uniform;
+        }),
+        leaf("leaf, bare", 0.4, 0.0, 0.0),
+        leaf("leaf, all transmitted", 1.0, 0.0, 0.0),
+        leaf("leaf under an interface", 0.6, 1.0, 0.0),
+        leaf("leaf, rough", 0.5, 0.0, 0.7),
+        row("leaf with a smooth interface", |p| {
+            p.diffuse_transmission = 0.5;
+            p.roughness = 0.0;
+        }),
+        row("wax", |p| {
+            p.diffuse_transmission = 0.7;
+            p.thin = false;
+            p.roughness = 0.5;
+        }),
+        row("wax from inside", |p| {
+            p.diffuse_transmission = 0.7;
+            p.thin = false;
+            p.eta = 1.0 / 1.4;
+            p.specular = 0.0;
+        }),
+        row("wax mixed with glass", |p| {
+            p.diffuse_transmission = 0.7;
+            p.transmission = 0.5;
+            p.thin = false;
+            p.roughness = 0.5;
+        }),
+    ]
+}
+
+/// The gloss of MTL materials.
+pub fn gloss() -> Vec<Row> {
+    let gloss = |name, exponent: f32, fresnel: bool| {
+        row(name, move |p| {
+            p.base_color = Spectrum::new(0.4, 0.3, 0.1);
+            let specular = Spectrum::new(0.2, 0.5, 0.6);
+            p.gloss = Some(GlossParams { specular, exponent, fresnel });
+        })
+    };
+    vec![
+        gloss("phong 0", 0.0, false),
+        gloss("phong 0.4", 0.4, false),
+        gloss("phong 5", 5.0, false),
+        gloss("phong 60", 60.0, false),
+        gloss("phong 400 with fresnel", 400.0, true),
+        gloss("phong 8 with fresnel", 8.0, true),
+        gloss("phong mirror", f32::INFINITY, false),
+        gloss("phong mirror with fresnel", f32::INFINITY, true),
+        row("phong too bright", |p| {
+            p.gloss = Some(GlossParams { specular: Spectrum::WHITE, exponent: 30.0, fresnel: false });
+        }),
+        row("phong on a rough leaf", |p| {
+            p.diffuse_roughness = 0.5;
+            p.diffuse_transmission = 0.5;
+            p.gloss = Some(GlossParams { specular: Spectrum::splat(0.3), exponent: 20.0, fresnel: true });
+        }),
+    ]
+}
+
 /// Mixtures of the models above.
 pub fn mixtures() -> Vec<Row> {
     let mixed = |name, metallic: f32, transmission: f32, thin: bool, roughness: f32| {
@@ -156,6 +241,12 @@ pub fn mixtures() -> Vec<Row> {
         mixed("all three", 0.3, 0.6, false, 0.5),
         mixed("all three thin", 0.3, 0.6, true, 0.5),
         mixed("all three smooth", 0.3, 0.6, false, 0.0),
+        row("metal and a rough leaf", |p| {
+            p.metallic = 0.4;
+            p.diffuse_transmission = 0.5;
+            p.diffuse_roughness = 0.6;
+            p.roughness = 0.4;
+        }),
         row("metal on lambert", |p| {
             p.metallic = 0.2;
             p.specular = 0.0;
@@ -293,5 +384,5 @@ pub fn layered() -> Vec<Row> {
 
 /// Every row.
 pub fn all() -> Vec<Row> {
-    [metals(), bases(), transmissive(), mixtures(), layered()].concat()
+    [metals(), bases(), diffuse(), gloss(), transmissive(), mixtures(), layered()].concat()
 }

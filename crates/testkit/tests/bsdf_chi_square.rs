@@ -13,7 +13,7 @@ use lumbre_testkit::furnace::direction;
 const DRAWS: usize = 1_000_000;
 const COSINES: [f32; 3] = [0.95, 0.4, 0.06];
 /// Tests that share the significance: all rows, cosines and sides, rounded up.
-const TESTS: usize = 300;
+const TESTS: usize = 450;
 const SIGNIFICANCE: f64 = 0.01;
 
 /// A side of the surface.
@@ -103,6 +103,16 @@ fn metals() {
 #[test]
 fn bases() {
     run(&bsdf_rows::bases(), 2_000);
+}
+
+#[test]
+fn diffuse() {
+    run(&bsdf_rows::diffuse(), 5_000);
+}
+
+#[test]
+fn gloss() {
+    run(&bsdf_rows::gloss(), 6_000);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Every surface: weight = eval / pdf, probabilities of delta lobes, reciprocity, adjoint transport, and finite values everywhere.
 
 use lumbre_core::Spectrum;
-use lumbre_core::bsdf::{Bsdf, BsdfParams, BsdfSample, CoatParams, SheenParams, TransportMode};
+use lumbre_core::bsdf::{Bsdf, BsdfParams, BsdfSample, CoatParams, GlossParams, SheenParams, TransportMode};
 use lumbre_core::hash::unit;
 use lumbre_core::math::Vec3;
 use lumbre_core::warp::uniform_sphere;
@@ -193,7 +193,7 @@ fn importance_is_the_adjoint_of_radiance() {
 
 #[test]
 fn crossing_scales_radiance_and_says_so() {
-    for row in bsdf_rows::transmissive() {
+    for row in [bsdf_rows::transmissive(), bsdf_rows::diffuse()].concat() {
         let bsdf = row.bsdf();
         let want = if row.refracts() { 1.0 / (row.params.eta * row.params.eta) } else { 1.0 };
         for k in 0..500 {
@@ -256,6 +256,13 @@ fn everything_is_finite_for_a_million_inputs() {
                 factor: c(21),
                 roughness: corner(k, 22, &[0.0, 0.031_622_777, 0.0317, 0.04, 1.0]),
                 normal: if k & 32 == 0 { Vec3::Z } else { direction(c(23), 6.3 * unit(k, 8)) },
+            }),
+            diffuse_roughness: if k % 7 == 0 { c(17) } else { 0.0 },
+            diffuse_transmission: if k % 11 == 0 { c(18) } else { 0.0 },
+            gloss: (k % 13 == 0).then(|| GlossParams {
+                specular: Spectrum::new(c(7), c(8), c(6)),
+                exponent: corner(k, 19, &[0.0, 1.0, 1e4, 1.9e6, f32::INFINITY, f32::NAN]) * 100.0,
+                fresnel: k % 2 == 0,
             }),
             ..BsdfParams::default()
         };

@@ -50,12 +50,26 @@ fn white_surfaces_keep_what_they_say() {
     let rows: [(&str, BsdfParams, f64); 0] = [];
     let mut out = String::new();
     for r in [0.0, 0.3, 1.0] {
-        for (n, b) in [("lambert", LAMBERT), ("plastic", PLASTIC), ("mirror", MIRROR), ("metal", METAL), ("thin", THIN), ("glass", GLASS)] {
+        for (n, b) in [
+            ("lambert", LAMBERT),
+            ("plastic", PLASTIC),
+            ("mirror", MIRROR),
+            ("metal", METAL),
+            ("thin", THIN),
+            ("glass", GLASS),
+        ] {
             out += &format!("coat {r} {n} {:?}\n", range(&params(b, coat(r), None)));
         }
     }
     for r in [0.05, 0.1, 0.3, 0.5, 0.7, 1.0] {
-        for (n, b) in [("lambert", LAMBERT), ("plastic", PLASTIC), ("mirror", MIRROR), ("metal", METAL), ("thin", THIN), ("glass", GLASS)] {
+        for (n, b) in [
+            ("lambert", LAMBERT),
+            ("plastic", PLASTIC),
+            ("mirror", MIRROR),
+            ("metal", METAL),
+            ("thin", THIN),
+            ("glass", GLASS),
+        ] {
             out += &format!("sheen {r} {n} {:?}\n", range(&params(b, None, sheen(r))));
         }
     }

@@ -7,6 +7,9 @@
 //! cone (Veach 1997, 5.2). Light scattered more than once between microfacets is left out, so a rough boundary loses light:
 //! the white furnace at ior 1.5, worst angle of either side, keeps at least 0.86 up to roughness 0.3, 0.78 at 0.5, 0.60 at 0.75, 0.35 at 1
 //! (tested: testkit `bsdf_energy`), and never gains any.
+//!
+//! Where a path that carries all wavelengths enters a solid that disperses ([`crate::wavelength`]), directions follow the index at one wavelength,
+//! and Fresnel's law takes that of the d line: what is reflected there does not depend on the wavelength and keeps its colour.
 
 use super::compensation::Rough;
 use super::{BsdfSample, Lobe, TransportMode};
@@ -23,16 +26,18 @@ const SMOOTH_SPREAD: f32 = 1e-4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dielectric {
     eta: f32,
+    /// The index ratio in Fresnel's law: `eta` but where the solid disperses.
+    eta_fresnel: f32,
     tint: Spectrum,
     rough: Option<Ggx>,
 }
 
 impl Dielectric {
-    /// `eta` > 0: index beyond over index on the side of `wo`; `tint` in [0, 1] per crossing.
+    /// `eta` > 0: index beyond over index on the side of `wo`; `eta_fresnel`: see [`super::BsdfParams`]; `tint` in [0, 1] per crossing.
     #[inline]
-    pub fn new(eta: f32, tint: Spectrum, rough: Option<Rough>) -> Self {
+    pub fn new(eta: f32, eta_fresnel: Option<f32>, tint: Spectrum, rough: Option<Rough>) -> Self {
         let rough = rough.map(|r| r.ggx).filter(|g| g.alpha_x * (eta - 1.0).abs() >= SMOOTH_SPREAD);
-        Dielectric { eta, tint, rough }
+        Dielectric { eta, eta_fresnel: eta_fresnel.unwrap_or(eta), tint, rough }
     }
 
     /// True when it scatters by a density rather than into two directions.
@@ -44,7 +49,7 @@ impl Dielectric {
     /// Reflected plus transmitted part at normal incidence.
     #[inline]
     pub fn albedo(&self) -> Spectrum {
-        Spectrum::WHITE.lerp(self.tint, 1.0 - dielectric(1.0, self.eta))
+        Spectrum::WHITE.lerp(self.tint, 1.0 - dielectric(1.0, self.eta_fresnel))
     }
 
     /// What passes when the ray is let straight through: tint and Fresnel at the angle in the thinner medium, on whichever side the
@@ -54,7 +59,7 @@ impl Dielectric {
         if self.rough.is_some() {
             return Spectrum::BLACK;
         }
-        self.tint * (1.0 - dielectric(cos, self.eta.max(1.0 / self.eta)))
+        self.tint * (1.0 - dielectric(cos, self.eta_fresnel.max(1.0 / self.eta_fresnel)))
     }
 
     /// Scale of radiance across the boundary.
@@ -66,6 +71,16 @@ impl Dielectric {
         }
     }
 
+    /// Reflectance and the cosine of the refracted ray.
+    #[inline]
+    fn fresnel_refracted(&self, cos: f32) -> (f32, f32) {
+        let (fresnel, cos_t) = dielectric_refracted(cos, self.eta);
+        if self.eta_fresnel == self.eta {
+            return (fresnel, cos_t);
+        }
+        (dielectric(cos, self.eta_fresnel), cos_t)
+    }
+
     /// f · |cos θi| and density. Directions as in [`super::Bsdf`], `wo.z > 0`.
     #[inline]
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
@@ -74,7 +89,7 @@ impl Dielectric {
         if wi.z > 0.0 {
             let m = (wo + wi).normalize();
             let (f, pdf) = ggx.reflection(wo, wi, m);
-            let fresnel = dielectric(wo.dot(m), self.eta);
+            let fresnel = dielectric(wo.dot(m), self.eta_fresnel);
             (Spectrum::splat(fresnel * f), fresnel * pdf)
         } else if wi.z < 0.0 {
             self.refraction(ggx, wo, wi, mode)
@@ -97,7 +112,7 @@ impl Dielectric {
         if cos_o <= 0.0 || cos_i <= 0.0 {
             return (Spectrum::BLACK, 0.0);
         }
-        let passed = 1.0 - dielectric(cos_o, self.eta);
+        let passed = 1.0 - dielectric(cos_o, self.eta_fresnel);
         // d ωm / d ωi; the denominator (wo·m + eta wi·m)² is the squared length of the unnormalised half vector.
         let jacobian = self.eta * self.eta * cos_i / len2;
         let pdf = ggx.pdf_visible_normal(wo, m) * passed * jacobian;
@@ -110,7 +125,7 @@ impl Dielectric {
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2], mode: TransportMode) -> Option<BsdfSample> {
         let Some(ggx) = &self.rough else { return Some(self.sample_smooth(wo, u_lobe, mode)) };
         let m = ggx.sample_visible_normal(wo, u);
-        let (fresnel, cos_t) = dielectric_refracted(wo.dot(m).clamp(0.0, 1.0), self.eta);
+        let (fresnel, cos_t) = self.fresnel_refracted(wo.dot(m).clamp(0.0, 1.0));
         if u_lobe < fresnel {
             let wi = reflect(wo, m);
             if wi.z <= 0.0 {
@@ -130,7 +145,7 @@ impl Dielectric {
 
     #[inline]
     fn sample_smooth(&self, wo: Vec3, u_lobe: f32, mode: TransportMode) -> BsdfSample {
-        let (fresnel, cos_t) = dielectric_refracted(wo.z.min(1.0), self.eta);
+        let (fresnel, cos_t) = self.fresnel_refracted(wo.z.min(1.0));
         if u_lobe < fresnel {
             let wi = Vec3::new(-wo.x, -wo.y, wo.z);
             return BsdfSample::delta(wi, Spectrum::splat(fresnel), fresnel, Lobe::SpecularReflection);

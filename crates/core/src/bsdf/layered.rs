@@ -16,9 +16,9 @@
 
 use super::coat::Coat;
 use super::lambert::DiffuseSampling;
-use super::mixture::{MIN_COS, Mixture, unit_interval};
+use super::mixture::{MIN_COS, Mixture};
 use super::sheen::Sheen;
-use super::{BsdfParams, BsdfSample, Lobe, TransportMode};
+use super::{BsdfParams, BsdfSample, Lobe, TransportMode, unit_interval};
 use crate::fresnel::schlick_weight;
 use crate::math::{ONE_MINUS_EPSILON, Vec3, lerp};
 use crate::rgb::Spectrum;

@@ -8,10 +8,12 @@
 use super::compensation::Rough;
 use super::dielectric::Dielectric;
 use super::dielectric_base::DielectricBase;
+use super::diffuse::Diffuse;
 use super::lambert::DiffuseSampling;
 use super::metal::Metal;
+use super::phong::Phong;
 use super::thin::Thin;
-use super::{BsdfParams, BsdfSample, TransportMode};
+use super::{BsdfParams, BsdfSample, TransportMode, unit_interval};
 use crate::fresnel::f0_from_ior;
 use crate::math::{ONE_MINUS_EPSILON, Vec3};
 use crate::rgb::Spectrum;
@@ -27,6 +29,7 @@ const ALBEDO_FLOOR: f32 = 0.05;
 enum Model {
     Metal(Metal),
     Base(DielectricBase),
+    Gloss(Phong),
     Solid(Dielectric),
     Thin(Thin),
 }
@@ -36,7 +39,8 @@ impl Model {
     fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
         match self {
             Model::Metal(m) => m.eval_pdf(wo, wi),
-            Model::Base(m) => m.eval_pdf(wo, wi),
+            Model::Base(m) => m.eval_pdf(wo, wi, mode),
+            Model::Gloss(m) => m.eval_pdf(wo, wi, mode),
             Model::Solid(m) => m.eval_pdf(wo, wi, mode),
             Model::Thin(m) => m.eval_pdf(wo, wi),
         }
@@ -46,7 +50,8 @@ impl Model {
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2], mode: TransportMode) -> Option<BsdfSample> {
         match self {
             Model::Metal(m) => m.sample(wo, u_lobe, u),
-            Model::Base(m) => m.sample(wo, u_lobe, u),
+            Model::Base(m) => m.sample(wo, u_lobe, u, mode),
+            Model::Gloss(m) => m.sample(wo, u_lobe, u, mode),
             Model::Solid(m) => m.sample(wo, u_lobe, u, mode),
             Model::Thin(m) => m.sample(wo, u_lobe, u),
         }
@@ -57,6 +62,7 @@ impl Model {
         match self {
             Model::Metal(m) => m.is_smooth_lobe(),
             Model::Base(m) => m.is_smooth_lobe(),
+            Model::Gloss(m) => m.is_smooth_lobe(),
             Model::Solid(m) => m.is_smooth_lobe(),
             Model::Thin(m) => m.is_smooth_lobe(),
         }
@@ -67,6 +73,7 @@ impl Model {
         match self {
             Model::Metal(m) => m.albedo(),
             Model::Base(m) => m.albedo(),
+            Model::Gloss(m) => m.albedo(),
             Model::Solid(m) => m.albedo(),
             Model::Thin(m) => m.albedo(),
         }
@@ -96,7 +103,7 @@ impl Mixture {
         let base_color = params.base_color.map(unit_interval);
         let (metallic, transmission) = (unit_interval(params.metallic), unit_interval(params.transmission));
         let weights = [metallic, (1.0 - metallic) * (1.0 - transmission), (1.0 - metallic) * transmission];
-        if weights[1] == 1.0 && params.specular <= 0.0 {
+        if weights[1] == 1.0 && params.is_plain_lambert() {
             return Mixture::lambert(base_color, params.diffuse_sampling);
         }
         let rough = Rough::new(params.roughness);
@@ -135,8 +142,7 @@ impl Mixture {
     /// A Lambert surface; `albedo` in [0, 1].
     #[inline]
     pub fn lambert(albedo: Spectrum, sampling: DiffuseSampling) -> Self {
-        let base = DielectricBase::new(albedo, Spectrum::BLACK, 0.0, None, sampling);
-        Mixture::single(Model::Base(base))
+        Mixture::single(Model::Base(DielectricBase::lambert(albedo, sampling)))
     }
 
     #[inline]
@@ -249,10 +255,14 @@ fn metal(_: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
 
 #[inline]
 fn base(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
+    let diffuse = Diffuse::new(params, base_color);
+    if let Some(gloss) = &params.gloss {
+        return Model::Gloss(Phong::new(diffuse, gloss));
+    }
     let specular = unit_interval(params.specular);
     let normal = f0_from_ior(params.ior);
     let f0 = params.specular_color.map(|c| unit_interval(normal * c) * specular);
-    Model::Base(DielectricBase::new(base_color, f0, specular, rough, params.diffuse_sampling))
+    Model::Base(DielectricBase::new(diffuse, f0, specular, rough))
 }
 
 #[inline]
@@ -260,12 +270,6 @@ fn transmissive(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>)
     if params.thin {
         Model::Thin(Thin::new(params.ior, base_color, rough))
     } else {
-        Model::Solid(Dielectric::new(params.eta, base_color, rough))
+        Model::Solid(Dielectric::new(params.eta, params.eta_fresnel, base_color, rough))
     }
-}
-
-/// Clamps to [0, 1]; NaN becomes 0.
-#[inline]
-pub(super) fn unit_interval(x: f32) -> f32 {
-    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }

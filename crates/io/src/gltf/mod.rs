@@ -2,10 +2,11 @@
 //! not used, because they panic on some wrong indices and follow paths out of the scene's folder.
 //!
 //! Extensions are read from the raw JSON (`json.rs`), all in the same way; `extensions.rs` lists them. Left out: skins,
-//! morph targets and animations (rest pose, with a warning), orthographic cameras, points and lines.
+//! morph targets and animations (rest pose, with a warning), points and lines.
 
 mod accessor;
 mod buffers;
+mod cameras;
 mod container;
 mod describe;
 mod document;
