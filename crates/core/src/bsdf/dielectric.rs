@@ -3,12 +3,16 @@
 //! Walter et al. 2007 with the exact unpolarised Fresnel law, visible normals sampled (Heitz 2018); their i is our wo, their o our
 //! wi. `eta` is the index on the other side over the index on the side of `wo`, which is always +z. The base colour tints what crosses.
 //!
+//! A thin film on the outside, the side of the smaller index, replaces Fresnel's reflectance band by band ([`super::thin_film`]); from
+//! inside it passes what it passes from outside along the same path.
+//!
 //! In [`TransportMode::Radiance`] what crosses is scaled by (ηi/ηt)² = 1/eta², as radiance is compressed into a narrower
 //! cone (Veach 1997, 5.2). Light scattered more than once between microfacets is left out, so a rough boundary loses light:
 //! the white furnace at ior 1.5, worst angle of either side, keeps at least 0.86 up to roughness 0.3, 0.78 at 0.5, 0.60 at 0.75, 0.35 at 1
 //! (tested: testkit `bsdf_energy`), and never gains any.
 
 use super::compensation::Rough;
+use super::thin_film::ThinFilm;
 use super::{BsdfSample, Lobe, TransportMode};
 use crate::fresnel::{dielectric, dielectric_refracted, refract};
 use crate::math::Vec3;
@@ -23,6 +27,7 @@ const SMOOTH_SPREAD: f32 = 1e-4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dielectric {
     eta: f32,
+    film: Option<ThinFilm>,
     tint: Spectrum,
     rough: Option<Ggx>,
 }
@@ -30,9 +35,33 @@ pub struct Dielectric {
 impl Dielectric {
     /// `eta` > 0: index beyond over index on the side of `wo`; `tint` in [0, 1] per crossing.
     #[inline]
-    pub fn new(eta: f32, tint: Spectrum, rough: Option<Rough>) -> Self {
-        let rough = rough.map(|r| r.ggx).filter(|g| g.alpha_x * (eta - 1.0).abs() >= SMOOTH_SPREAD);
-        Dielectric { eta, tint, rough }
+    pub fn new(eta: f32, film: Option<ThinFilm>, tint: Spectrum, rough: Option<Rough>) -> Self {
+        let least = SMOOTH_SPREAD / (eta - 1.0).abs();
+        let rough = rough.map(|r| r.ggx).filter(|g| g.alpha_x >= least);
+        // Beside a rough axis the other is as smooth as digits allow.
+        let rough = rough.map(|g| Ggx { alpha_y: g.alpha_y.max(least), ..g });
+        Dielectric { eta, film, tint, rough }
+    }
+
+    /// Reflectance at a facet, and its mean over the bands.
+    #[inline]
+    fn reflectance(&self, cos: f32) -> (Spectrum, f32) {
+        let plain = dielectric(cos, self.eta);
+        match &self.film {
+            None => (Spectrum::splat(plain), plain),
+            Some(film) => self.filmed(film, plain, cos),
+        }
+    }
+
+    #[inline(never)]
+    fn filmed(&self, film: &ThinFilm, plain: f32, cos: f32) -> (Spectrum, f32) {
+        // Within the denser medium the angle outside is the refracted one; there is none in total reflection.
+        let outside = if self.eta < 1.0 { dielectric_refracted(cos, self.eta).1 } else { cos };
+        if plain >= 1.0 {
+            return (Spectrum::WHITE, 1.0);
+        }
+        let f = film.reflectance(Spectrum::splat(plain), outside);
+        (f, f.average())
     }
 
     /// True when it scatters by a density rather than into two directions.
@@ -44,7 +73,10 @@ impl Dielectric {
     /// Reflected plus transmitted part at normal incidence.
     #[inline]
     pub fn albedo(&self) -> Spectrum {
-        Spectrum::WHITE.lerp(self.tint, 1.0 - dielectric(1.0, self.eta))
+        {
+            let (f, _) = self.reflectance(1.0);
+            f + (Spectrum::WHITE - f) * self.tint
+        }
     }
 
     /// What passes when the ray is let straight through: tint and Fresnel at the angle in the thinner medium, on whichever side the
@@ -54,7 +86,8 @@ impl Dielectric {
         if self.rough.is_some() {
             return Spectrum::BLACK;
         }
-        self.tint * (1.0 - dielectric(cos, self.eta.max(1.0 / self.eta)))
+        let outside = Dielectric { eta: self.eta.max(1.0 / self.eta), ..*self };
+        self.tint * (Spectrum::WHITE - outside.reflectance(cos).0)
     }
 
     /// Scale of radiance across the boundary.
@@ -74,8 +107,8 @@ impl Dielectric {
         if wi.z > 0.0 {
             let m = (wo + wi).normalize();
             let (f, pdf) = ggx.reflection(wo, wi, m);
-            let fresnel = dielectric(wo.dot(m), self.eta);
-            (Spectrum::splat(fresnel * f), fresnel * pdf)
+            let (fresnel, prob) = self.reflectance(wo.dot(m));
+            (fresnel * f, prob * pdf)
         } else if wi.z < 0.0 {
             self.refraction(ggx, wo, wi, mode)
         } else {
@@ -97,12 +130,12 @@ impl Dielectric {
         if cos_o <= 0.0 || cos_i <= 0.0 {
             return (Spectrum::BLACK, 0.0);
         }
-        let passed = 1.0 - dielectric(cos_o, self.eta);
+        let (fresnel, prob) = self.reflectance(cos_o);
         // d ωm / d ωi; the denominator (wo·m + eta wi·m)² is the squared length of the unnormalised half vector.
         let jacobian = self.eta * self.eta * cos_i / len2;
-        let pdf = ggx.pdf_visible_normal(wo, m) * passed * jacobian;
+        let pdf = ggx.pdf_visible_normal(wo, m) * jacobian;
         let f = pdf * ggx.g1(wi) * self.eta_scale(mode);
-        (self.tint * f, pdf)
+        (self.tint * (Spectrum::WHITE - fresnel) * f, pdf * (1.0 - prob))
     }
 
     /// Draws a direction; Fresnel's reflectance chooses between the two sides.
@@ -110,8 +143,9 @@ impl Dielectric {
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2], mode: TransportMode) -> Option<BsdfSample> {
         let Some(ggx) = &self.rough else { return Some(self.sample_smooth(wo, u_lobe, mode)) };
         let m = ggx.sample_visible_normal(wo, u);
-        let (fresnel, cos_t) = dielectric_refracted(wo.dot(m).clamp(0.0, 1.0), self.eta);
-        if u_lobe < fresnel {
+        let cos_o = wo.dot(m).clamp(0.0, 1.0);
+        let cos_t = dielectric_refracted(cos_o, self.eta).1;
+        if u_lobe < self.reflectance(cos_o).1 {
             let wi = reflect(wo, m);
             if wi.z <= 0.0 {
                 return None;
@@ -130,16 +164,17 @@ impl Dielectric {
 
     #[inline]
     fn sample_smooth(&self, wo: Vec3, u_lobe: f32, mode: TransportMode) -> BsdfSample {
-        let (fresnel, cos_t) = dielectric_refracted(wo.z.min(1.0), self.eta);
-        if u_lobe < fresnel {
+        let cos_o = wo.z.min(1.0);
+        let cos_t = dielectric_refracted(cos_o, self.eta).1;
+        let (fresnel, prob) = self.reflectance(cos_o);
+        if u_lobe < prob {
             let wi = Vec3::new(-wo.x, -wo.y, wo.z);
-            return BsdfSample::delta(wi, Spectrum::splat(fresnel), fresnel, Lobe::SpecularReflection);
+            return BsdfSample::delta(wi, fresnel, prob, Lobe::SpecularReflection);
         }
         let inv = 1.0 / self.eta;
         let wi = Vec3::new(-wo.x * inv, -wo.y * inv, -cos_t);
         let eta_scale = self.eta_scale(mode);
-        let passed = 1.0 - fresnel;
-        let weight = self.tint * (passed * eta_scale);
-        BsdfSample { eta_scale, ..BsdfSample::delta(wi, weight, passed, Lobe::SpecularTransmission) }
+        let weight = self.tint * (Spectrum::WHITE - fresnel) * eta_scale;
+        BsdfSample { eta_scale, ..BsdfSample::delta(wi, weight, 1.0 - prob, Lobe::SpecularTransmission) }
     }
 }

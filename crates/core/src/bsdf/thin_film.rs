@@ -103,6 +103,22 @@ impl ThinFilm {
     }
 }
 
+/// Nodes μ = √x and weights of the mean over the cosine-weighted hemisphere, 2 ∫ f(μ) μ dμ = ∫ f(√x) dx: Gauss-Legendre on
+/// [0, 1], six points (Abramowitz and Stegun 1964, table 25.4).
+pub const AVERAGE: [(f32, f32); 6] = [
+    (0.183_753_2, 0.085_662_246),
+    (0.411_576_6, 0.180_380_79),
+    (0.617_001_1, 0.233_956_97),
+    (0.786_962_3, 0.233_956_97),
+    (0.911_375_2, 0.180_380_79),
+    (0.982_972_4, 0.085_662_246),
+];
+
+/// Mean of a reflectance over the cosine-weighted hemisphere.
+pub fn average(reflectance: impl Fn(f32) -> Spectrum) -> Spectrum {
+    AVERAGE.iter().fold(Spectrum::BLACK, |sum, &(cos, weight)| sum + reflectance(cos) * weight)
+}
+
 /// Reflected amplitude and transmittance of one face between admittances `a` and `b`, both above 0.
 #[inline]
 fn amplitude(a: f32, b: f32) -> (f32, f32) {
