@@ -34,6 +34,12 @@ impl Ggx {
         Ggx { alpha_x: alpha + (1.0 - alpha) * strength * strength, alpha_y: alpha.max(ALPHA_SMOOTH) }
     }
 
+    /// True when the widths differ.
+    #[inline]
+    pub fn is_anisotropic(&self) -> bool {
+        self.alpha_x != self.alpha_y
+    }
+
     /// Density of normals D(m) per solid angle and area of the macroscopic surface; `m.z >= 0`. Heitz 2014.
     #[inline]
     pub fn d(&self, m: Vec3) -> f32 {
