@@ -47,7 +47,11 @@ impl Compensation {
     #[inline]
     pub fn new(albedo: &Albedo) -> Self {
         let alpha = albedo.alpha();
-        Compensation { alpha, scale: INV_PI / albedo.average().deficit, log_norm: ln(1.0 + 1.0 / (alpha * alpha)) }
+        Compensation {
+            alpha,
+            scale: INV_PI / albedo.average().deficit,
+            log_norm: ln(1.0 + 1.0 / (alpha * alpha)),
+        }
     }
 
     /// f · cos θi, given 1 - E towards both sides; `cos_i > 0`.

@@ -92,13 +92,7 @@ impl DielectricBase {
     }
 
     #[inline]
-    fn layered_eval_pdf(
-        &self,
-        at_o: Shares,
-        wo: Vec3,
-        wi: Vec3,
-        mode: TransportMode,
-    ) -> (Spectrum, f32) {
+    fn layered_eval_pdf(&self, at_o: Shares, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
         let (base, pdf_base) = self.diffuse.eval_pdf(wo, wi, mode);
         let p = self.prob_specular(at_o);
         let passed = at_o.passed * self.interface.shares(wi).passed;
@@ -131,7 +125,12 @@ impl DielectricBase {
         let (wi, lobe) = if u_lobe < p {
             let Some(rough) = self.interface.rough() else {
                 let wi = Vec3::new(-wo.x, -wo.y, wo.z);
-                return Some(BsdfSample::delta(wi, self.interface.reflectance(wo.z), p, Lobe::SpecularReflection));
+                return Some(BsdfSample::delta(
+                    wi,
+                    self.interface.reflectance(wo.z),
+                    p,
+                    Lobe::SpecularReflection,
+                ));
             };
             let wi = reflect(wo, rough.ggx.sample_visible_normal(wo, u));
             if wi.z <= 0.0 {

@@ -270,7 +270,12 @@ fn base(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Mode
 #[inline]
 fn transmissive(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
     if params.thin {
-        Model::Thin(Thin::new(params.ior, film(params, Spectrum::splat(f0_from_ior(params.ior))), base_color, rough))
+        Model::Thin(Thin::new(
+            params.ior,
+            film(params, Spectrum::splat(f0_from_ior(params.ior))),
+            base_color,
+            rough,
+        ))
     } else {
         let eta_fresnel = params.eta_fresnel.unwrap_or(params.eta);
         let film = film(params, Spectrum::splat(f0_from_ior(eta_fresnel)));
