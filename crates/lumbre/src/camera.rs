@@ -1,5 +1,6 @@
 //! Which camera a picture is taken with.
 
+use crate::info::CameraInfo;
 use glam::{Affine3A, Mat4, Vec3};
 use lumbre_core::camera::{Camera, Projection};
 use lumbre_core::math::{atan2, sin_cos, tan};
@@ -80,6 +81,16 @@ pub fn camera_names(scene: &Scene) -> Vec<String> {
         p.names.into_iter().find(|n| !n.is_empty()).map_or_else(|| i.to_string(), str::to_string)
     };
     placed(scene).into_iter().enumerate().map(name).collect()
+}
+
+/// What there is to know about the cameras of a scene, in order.
+pub(crate) fn infos(scene: &Scene) -> Vec<CameraInfo> {
+    let one = |p: Placed<'_>| CameraInfo {
+        name: p.names.into_iter().find(|n| !n.is_empty()).unwrap_or_default().to_string(),
+        projection: p.camera.projection,
+        position: p.to_world.w_axis.truncate(),
+    };
+    placed(scene).into_iter().map(one).collect()
 }
 
 /// The camera that was chosen; `None`: the default one of a scene that has none.
