@@ -285,8 +285,14 @@ mod tests {
                 }
             }
             let average = row.average();
-            assert!((f64::from(average.deficit) / deficit - 1.0).abs() < 8e-3, "{alpha:?} {average:?} {deficit}");
-            assert!((f64::from(average.schlick) / schlick - 1.0).abs() < 5e-3, "{alpha:?} {average:?} {schlick}");
+            assert!(
+                (f64::from(average.deficit) / deficit - 1.0).abs() < 8e-3,
+                "{alpha:?} {average:?} {deficit}"
+            );
+            assert!(
+                (f64::from(average.schlick) / schlick - 1.0).abs() < 5e-3,
+                "{alpha:?} {average:?} {schlick}"
+            );
         }
     }
 }
