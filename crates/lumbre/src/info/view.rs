@@ -158,7 +158,7 @@ impl Eye<'_> {
         let view = View { camera: self.camera, settings: RenderSettings::default(), frame: 0 };
         self.backend.render(&view, 0..SAMPLES, &mut film, &());
         if is_black(&film) {
-            let what = "all that {} sees is black: the light of the scene does not come there";
+            let what = "all that {} sees is black: the light does not come there, or is far too faint";
             return Some((HintKind::AllBlack, what.into()));
         }
         let mut blocks = blocks(&film);
