@@ -25,6 +25,22 @@ pub struct Description {
     pub lists: Vec<(&'static str, usize)>,
 }
 
+impl Description {
+    /// Of a format whose files say nothing of themselves.
+    pub(crate) fn plain(format: &'static str, bytes: &[u8]) -> Self {
+        Description {
+            format,
+            file_bytes: bytes.len() as u64,
+            generator: None,
+            extensions: Vec::new(),
+            scenes: Vec::new(),
+            default_scene: 0,
+            variants: Vec::new(),
+            lists: Vec::new(),
+        }
+    }
+}
+
 /// An extension that a file uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UsedExtension {

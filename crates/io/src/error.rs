@@ -202,7 +202,8 @@ fn list(names: &[String]) -> String {
     if names.is_empty() {
         return "there are none".into();
     }
-    let shown: Vec<String> = names.iter().take(MOST).map(|n| format!("{n:.60?}")).collect();
+    let short = |name: &String| format!("{:?}", name.chars().take(60).collect::<String>());
+    let shown: Vec<String> = names.iter().take(MOST).map(short).collect();
     let more = if names.len() > MOST { format!(" and {} more", names.len() - MOST) } else { String::new() };
     format!("there are {}{more}", shown.join(", "))
 }

@@ -11,7 +11,9 @@ mod gltf;
 mod guard;
 mod image;
 mod limits;
+mod obj;
 mod open;
+mod polygon;
 mod resolver;
 mod warnings;
 

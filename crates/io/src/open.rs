@@ -1,7 +1,7 @@
 //! Opens a scene, whatever its format.
 
 use crate::describe::Description;
-use crate::{IoError, Limits, files, gltf};
+use crate::{IoError, Limits, files, gltf, obj};
 use lumbre_scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -40,7 +40,7 @@ pub struct Loaded {
 }
 
 /// What [`load_scene`] opens, for messages.
-pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb)";
+pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj)";
 
 /// Loads a scene. The format is told by the first bytes, then by the extension.
 ///
@@ -53,6 +53,7 @@ pub fn load_scene(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loade
     match format_of(path, &bytes)? {
         Format::Glb => gltf::load_glb(path, bytes, options),
         Format::Gltf => gltf::load_json(path, &bytes, options),
+        Format::Obj => obj::load(path, &bytes, options),
     }
 }
 
@@ -61,6 +62,7 @@ pub fn load_scene(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loade
 pub(crate) enum Format {
     Glb,
     Gltf,
+    Obj,
 }
 
 impl Format {
@@ -73,6 +75,7 @@ impl Format {
     ) -> Result<Description, IoError> {
         match self {
             Format::Glb | Format::Gltf => gltf::describe(path, bytes, options),
+            Format::Obj => Ok(Description::plain("Wavefront OBJ", bytes)),
         }
     }
 }
@@ -85,6 +88,7 @@ pub(crate) fn format_of(path: &Path, bytes: &[u8]) -> Result<Format, IoError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     match extension.as_str() {
         "gltf" => Ok(Format::Gltf),
+        "obj" => Ok(Format::Obj),
         "glb" => Err(IoError::data(path, "byte 0", "not a binary glTF: it does not begin with `glTF`")),
         _ => Err(IoError::unsupported(
             path,

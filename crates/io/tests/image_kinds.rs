@@ -297,6 +297,32 @@ fn extensions_name_the_image_first() {
     assert_eq!(g.error(), "scene.gltf: /textures/0: not supported: the extension MSFT_texture_dds");
 }
 
+/// A few bytes may say a plain picture, but not one of any size.
+#[test]
+fn small_files_of_large_images_are_refused() {
+    let plain = [0; 4 * 30 * 20];
+    let mut webp = std::io::Cursor::new(Vec::new());
+    let color = ExtendedColorType::Rgba8;
+    image::write_buffer_with_format(&mut webp, &plain, 30, 20, color, ImageFormat::WebP).unwrap();
+    let webp = webp.into_inner();
+    assert_eq!(read(&webp).unwrap(), (30, 20, plain.to_vec()));
+    assert_eq!(webp[20], 0x2f, "a lossless stream, which says its size in 14 bits each");
+    let sized = |side: u32| {
+        let mut webp = webp.clone();
+        let bits = u32::from_le_bytes(webp[21..25].try_into().unwrap()) & !0x0fff_ffff;
+        webp[21..25].copy_from_slice(&(bits | (side - 1) | ((side - 1) << 14)).to_le_bytes());
+        let mut basis = data("etc1s.ktx2");
+        basis[20..24].copy_from_slice(&side.to_le_bytes());
+        basis[24..28].copy_from_slice(&side.to_le_bytes());
+        [webp, basis]
+    };
+    for bytes in sized(16_383) {
+        let want = format!("16383 x 16383 pixels cannot be held by {} bytes", bytes.len());
+        let e = read(&bytes).unwrap_err().to_string();
+        assert!(e.ends_with(&want), "{e}");
+    }
+}
+
 #[test]
 fn sizes_are_checked_before_decoding() {
     let folder = tempfile::tempdir().unwrap();

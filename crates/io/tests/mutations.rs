@@ -225,7 +225,7 @@ fn webp_bmp_tga_and_ktx2() {
 /// Mutates only the streams: what is around them is mutated by the test of plain scenes.
 #[test]
 fn draco_and_meshopt() {
-    let options = LoadOptions { limits: limits() };
+    let options = LoadOptions { limits: limits(), ..LoadOptions::default() };
     let compile =
         |path: &Path| load_scene(path, &options).map(|l| lumbre_scene::compile(&l.scene).map(|_| ()));
     let cases = |name: &str| -> Vec<Value> { serde_json::from_slice(&data(name)).unwrap() };

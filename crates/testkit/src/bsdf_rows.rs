@@ -1,7 +1,9 @@
 //! The table of surfaces that every BSDF test walks: one row per model and choice of parameters.
 
 use lumbre_core::Spectrum;
-use lumbre_core::bsdf::{Bsdf, BsdfParams, CoatParams, DiffuseSampling, GlossParams, SheenParams};
+use lumbre_core::bsdf::{
+    Bsdf, BsdfParams, CoatParams, DiffuseSampling, FilmParams, GlossParams, SheenParams,
+};
 use lumbre_core::math::Vec3;
 
 /// One surface under test.
@@ -382,7 +384,101 @@ pub fn layered() -> Vec<Row> {
     [coats(), tilted_coats(), sheens()].concat()
 }
 
+/// Facets of two widths.
+pub fn anisotropic() -> Vec<Row> {
+    let stretched = |name, strength: f32, roughness: f32, change: fn(&mut BsdfParams)| {
+        row(name, move |p| {
+            p.anisotropy = strength;
+            p.roughness = roughness;
+            change(p);
+        })
+    };
+    let metal = |p: &mut BsdfParams| p.metallic = 1.0;
+    let thin = |p: &mut BsdfParams| p.transmission = 1.0;
+    let glass = |p: &mut BsdfParams| {
+        p.transmission = 1.0;
+        p.thin = false;
+    };
+    let from_inside = |p: &mut BsdfParams| {
+        p.transmission = 1.0;
+        p.thin = false;
+        p.eta = 1.0 / 1.5;
+    };
+    vec![
+        stretched("brushed metal, weak", 0.3, 0.3, metal),
+        stretched("brushed metal", 0.6, 0.4, metal),
+        stretched("brushed metal, full", 1.0, 0.2, metal),
+        stretched("brushed metal, full, fine", 1.0, 0.08, metal),
+        stretched("brushed mirror", 0.5, 0.0, metal),
+        stretched("mirror, hardly brushed", 0.03, 0.0, metal),
+        stretched("brushed rough metal", 0.7, 0.9, metal),
+        stretched("brushed plastic", 0.5, 0.3, |_| ()),
+        stretched("brushed plastic, full", 1.0, 0.15, |_| ()),
+        stretched("brushed plastic, rough", 0.8, 0.7, |p| p.ior = 2.0),
+        stretched("brushed glass", 0.6, 0.3, glass),
+        stretched("brushed glass, full", 1.0, 0.2, glass),
+        stretched("brushed glass from inside", 0.6, 0.3, from_inside),
+        stretched("brushed glass, nearly matched", 1.0, 0.0, |p| {
+            p.transmission = 1.0;
+            p.thin = false;
+            p.eta = 1.05;
+        }),
+        stretched("brushed thin", 0.6, 0.3, thin),
+        stretched("brushed thin, full", 1.0, 0.2, thin),
+        stretched("brushed half metal", 0.7, 0.3, |p| p.metallic = 0.5),
+    ]
+}
+
+/// Interfaces under a thin film.
+pub fn films() -> Vec<Row> {
+    let film = |name, [factor, ior, thickness_nm]: [f32; 3], roughness: f32, change: fn(&mut BsdfParams)| {
+        row(name, move |p| {
+            p.film = Some(FilmParams { factor, ior, thickness_nm });
+            p.roughness = roughness;
+            change(p);
+        })
+    };
+    let metal = |p: &mut BsdfParams| p.metallic = 1.0;
+    let thin = |p: &mut BsdfParams| p.transmission = 1.0;
+    let glass = |p: &mut BsdfParams| {
+        p.transmission = 1.0;
+        p.thin = false;
+    };
+    let from_inside = |p: &mut BsdfParams| {
+        p.transmission = 1.0;
+        p.thin = false;
+        p.eta = 1.0 / 1.5;
+    };
+    vec![
+        film("film on mirror", [1.0, 1.8, 400.0], 0.0, metal),
+        film("film on metal", [1.0, 1.8, 400.0], 0.4, metal),
+        film("thick film on rough metal", [1.0, 1.33, 1200.0], 0.8, metal),
+        film("half film on metal", [0.5, 2.4, 150.0], 0.2, metal),
+        film("film on smooth plastic", [1.0, 1.33, 300.0], 0.0, |_| ()),
+        film("film on plastic", [1.0, 1.8, 400.0], 0.4, |_| ()),
+        film("strong film on rough plastic", [1.0, 2.4, 550.0], 0.8, |_| ()),
+        film("film on weak plastic", [0.7, 2.0, 250.0], 0.3, |p| p.specular = 0.5),
+        film("film on glass", [1.0, 1.33, 300.0], 0.0, glass),
+        film("film on rough glass", [1.0, 2.0, 450.0], 0.4, glass),
+        film("film on glass from inside", [1.0, 2.0, 450.0], 0.0, from_inside),
+        film("film on rough glass from inside", [1.0, 2.0, 450.0], 0.4, from_inside),
+        film("soap bubble", [1.0, 1.33, 380.0], 0.0, |p| {
+            p.transmission = 1.0;
+            p.ior = 1.0;
+        }),
+        film("film on thin", [1.0, 1.8, 350.0], 0.0, thin),
+        film("film on rough thin", [1.0, 1.8, 350.0], 0.5, thin),
+        film("film on brushed plastic", [1.0, 1.8, 400.0], 0.3, |p| p.anisotropy = 0.7),
+        film("film on all three", [0.8, 1.6, 500.0], 0.5, |p| {
+            p.metallic = 0.3;
+            p.transmission = 0.6;
+            p.thin = false;
+        }),
+    ]
+}
+
 /// Every row.
 pub fn all() -> Vec<Row> {
-    [metals(), bases(), diffuse(), gloss(), transmissive(), mixtures(), layered()].concat()
+    [metals(), bases(), diffuse(), gloss(), transmissive(), mixtures(), layered(), anisotropic(), films()]
+        .concat()
 }

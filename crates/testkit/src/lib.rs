@@ -7,6 +7,7 @@ pub mod bsdf_tables;
 pub mod chi_square;
 pub mod convergence;
 pub mod furnace;
+pub mod fuzzing;
 pub mod measure;
 pub mod npy;
 pub mod plot;

@@ -52,6 +52,12 @@ fn chi_square(
 
 /// Bins suited to a row: equal areas where it is broad, crowded about the mirror and the refracted direction where it is narrow.
 fn grids(row: &Row, wo: Vec3) -> Vec<(Grid, Side)> {
+    if row.params.anisotropy > 0.0 {
+        // The draws lie along the cone about y that the mirror direction is on, as narrow as the smaller width.
+        let narrow = Grid { axis: Vec3::Y, ..Grid::broad() }.with_edges();
+        let grid = if row.alpha() > 0.06 { Grid::broad() } else { narrow };
+        return vec![(grid, Side::Both)];
+    }
     let alpha = f64::from(row.alpha());
     let eta = if row.params.thin { 1.0 } else { row.params.eta };
     // Refraction turns a facet's tilt into a deviation of about eta - 1 times it.
@@ -113,6 +119,16 @@ fn diffuse() {
 #[test]
 fn gloss() {
     run(&bsdf_rows::gloss(), 6_000);
+}
+
+#[test]
+fn anisotropic() {
+    run(&bsdf_rows::anisotropic(), 7_000);
+}
+
+#[test]
+fn films() {
+    run(&bsdf_rows::films(), 8_000);
 }
 
 #[test]

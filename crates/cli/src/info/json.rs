@@ -74,9 +74,13 @@ fn scene(info: &SceneInfo) -> Value {
             .map(|m| json!({ "name": m.name, "used": m.used, "lobes": m.lobes, "textures": m.textures }))
             .collect::<Vec<_>>(),
         "cameras": info.cameras.iter().map(|c| {
-            let Projection::Perspective { yfov, aspect } = c.projection;
-            json!({ "name": c.name, "projection": "perspective", "yfov": yfov, "aspect": aspect,
-                    "position": c.position.to_array() })
+            let position = c.position.to_array();
+            match c.projection {
+                Projection::Perspective { yfov, aspect } => json!({ "name": c.name, "position": position,
+                    "projection": "perspective", "yfov": yfov, "aspect": aspect }),
+                Projection::Orthographic { xmag, ymag } => json!({ "name": c.name, "position": position,
+                    "projection": "orthographic", "xmag": xmag, "ymag": ymag }),
+            }
         }).collect::<Vec<_>>(),
         "notes": info.notes,
         "hints": info.hints.iter()

@@ -235,11 +235,17 @@ fn materials(page: &mut Page, info: &SceneInfo) {
 
 fn cameras(page: &mut Page, info: &SceneInfo) {
     let row = |(i, c): (usize, &info::CameraInfo)| {
-        let Projection::Perspective { yfov, aspect } = c.projection;
-        let shape = aspect.map_or_else(String::new, |a| format!(", {}:1", short(a)));
+        let projection = match c.projection {
+            Projection::Perspective { yfov, aspect } => {
+                let shape = aspect.map_or_else(String::new, |a| format!(", {}:1", short(a)));
+                format!("perspective, {}° high{shape}", short(yfov.to_degrees()))
+            }
+            Projection::Orthographic { xmag, ymag } => {
+                format!("orthographic, {} by {} m", short(2.0 * xmag), short(2.0 * ymag))
+            }
+        };
         let [x, y, z] = c.position.to_array().map(short);
-        let fov = short(yfov.to_degrees());
-        format!("{i}{}  perspective, {fov}° high{shape}, at ({x},\u{a0}{y},\u{a0}{z})", named(&c.name))
+        format!("{i}{}  {projection}, at ({x},\u{a0}{y},\u{a0}{z})", named(&c.name))
     };
     let rows: Vec<String> = info.cameras.iter().enumerate().map(row).collect();
     if rows.is_empty() {

@@ -155,10 +155,10 @@ impl Albedo {
     /// For the distribution of the interface.
     #[inline]
     pub fn new(ggx: &Ggx) -> Self {
-        if ggx.alpha_x == ggx.alpha_y {
-            Albedo::Isotropic(AlbedoRow::new(ggx.alpha_x))
-        } else {
+        if ggx.is_anisotropic() {
             Albedo::Anisotropic(AnisoRow::new(ggx))
+        } else {
+            Albedo::Isotropic(AlbedoRow::new(ggx.alpha_x))
         }
     }
 

@@ -28,7 +28,7 @@ impl Coat {
     /// `factor` in [0, 1]; `roughness` perceptual; `normal` unit, in the local frame of the surface.
     #[inline]
     pub fn new(factor: f32, roughness: f32, normal: Vec3) -> Self {
-        Coat { factor, rough: Rough::new(roughness), normal }
+        Coat { factor, rough: Rough::new(roughness, 0.0), normal }
     }
 
     /// True when it scatters by a density rather than as a mirror.
@@ -54,7 +54,7 @@ impl Coat {
         let mu = self.normal.dot(w) * 1.0f32.copysign(w.z);
         let mu = mu.clamp(0.0, 1.0);
         let at = match &self.rough {
-            Some(rough) => rough.albedo.directional(mu),
+            Some(rough) => rough.albedo.directional(Vec3::new(0.0, 0.0, mu)),
             None => Directional::smooth(mu),
         };
         lerp(1.0, at.passed(F0, 1.0), self.factor)

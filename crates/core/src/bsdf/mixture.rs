@@ -3,16 +3,17 @@
 //!
 //! weight = metallic; (1 - metallic)(1 - transmission); (1 - metallic) transmission. One component is chosen, by its weight times an
 //! estimate of its albedo; its smooth lobes are then weighted with the density of all components (one-sample model, Veach 1997, 9.2.4).
-//! Room is left for anisotropy in [`crate::microfacet::Ggx`].
 
 use super::compensation::Rough;
 use super::dielectric::Dielectric;
 use super::dielectric_base::DielectricBase;
 use super::diffuse::Diffuse;
+use super::interface::Interface;
 use super::lambert::DiffuseSampling;
 use super::metal::Metal;
 use super::phong::Phong;
 use super::thin::Thin;
+use super::thin_film::ThinFilm;
 use super::{BsdfParams, BsdfSample, TransportMode, unit_interval};
 use crate::fresnel::f0_from_ior;
 use crate::math::{ONE_MINUS_EPSILON, Vec3};
@@ -106,7 +107,7 @@ impl Mixture {
         if weights[1] == 1.0 && params.is_plain_lambert() {
             return Mixture::lambert(base_color, params.diffuse_sampling);
         }
-        let rough = Rough::new(params.roughness);
+        let rough = Rough::new(params.roughness, params.anisotropy);
         // Most surfaces are of one kind.
         for (weight, term) in weights.into_iter().zip(TERMS) {
             if weight == 1.0 {
@@ -249,8 +250,8 @@ type Term = fn(&BsdfParams, Spectrum, Option<Rough>) -> Model;
 const TERMS: [Term; 3] = [metal, base, transmissive];
 
 #[inline]
-fn metal(_: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
-    Model::Metal(Metal::new(base_color, rough))
+fn metal(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
+    Model::Metal(Metal::new(base_color, film(params, base_color), rough))
 }
 
 #[inline]
@@ -261,15 +262,29 @@ fn base(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Mode
     }
     let specular = unit_interval(params.specular);
     let normal = f0_from_ior(params.ior);
-    let f0 = params.specular_color.map(|c| unit_interval(normal * c) * specular);
-    Model::Base(DielectricBase::new(diffuse, f0, specular, rough))
+    let f0 = params.specular_color.map(|c| unit_interval(normal * c));
+    let interface = Interface::new(f0, specular, film(params, f0), rough);
+    Model::Base(DielectricBase::new(diffuse, interface))
 }
 
 #[inline]
 fn transmissive(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
     if params.thin {
-        Model::Thin(Thin::new(params.ior, base_color, rough))
+        Model::Thin(Thin::new(
+            params.ior,
+            film(params, Spectrum::splat(f0_from_ior(params.ior))),
+            base_color,
+            rough,
+        ))
     } else {
-        Model::Solid(Dielectric::new(params.eta, params.eta_fresnel, base_color, rough))
+        let eta_fresnel = params.eta_fresnel.unwrap_or(params.eta);
+        let film = film(params, Spectrum::splat(f0_from_ior(eta_fresnel)));
+        Model::Solid(Dielectric::new(params.eta, params.eta_fresnel, film, base_color, rough))
     }
+}
+
+/// The film over an interface that reflects `f0` at normal incidence.
+#[inline]
+fn film(params: &BsdfParams, f0: Spectrum) -> Option<ThinFilm> {
+    params.film.as_ref().and_then(|film| ThinFilm::new(film, f0))
 }

@@ -27,6 +27,7 @@ pub mod compensation;
 pub mod dielectric;
 pub mod dielectric_base;
 pub mod diffuse;
+mod interface;
 pub mod lambert;
 mod layered;
 pub mod metal;

@@ -144,6 +144,7 @@ impl<'a> Job<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Limits;
     use base64::Engine;
     use gltf::json::serialize;
     use serde_json::json;
@@ -160,7 +161,7 @@ mod tests {
             {"buffer": 1, "byteLength": 1, "extensions": {"EXT_meshopt_compression": extension}}]}));
         let limits = Limits::default();
         let doc = Document::parse(Path::new("a.gltf"), &text.unwrap(), &limits).unwrap();
-        let mut decoded = decode_all(&doc, &[stream], 1 << 20)?;
+        let mut decoded = decode_all(&doc, &[stream], Room::from(1 << 20))?;
         assert_eq!(decoded.len(), 1);
         Ok(decoded.remove(&0).unwrap())
     }

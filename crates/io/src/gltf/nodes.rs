@@ -1,13 +1,13 @@
-//! The node graph and its cameras.
+//! The node graph, and the scene of it that is shown.
 
+use super::cameras;
 use super::document::Document;
 use super::json::Object;
 use super::lights;
 use crate::warnings::Warnings;
 use crate::{Bound, IoError, SceneChoice};
 use glam::{Mat4, Quat, Vec3, Vec4};
-use gltf::json::validation::Checked;
-use lumbre_scene::{Camera, CameraId, LightId, MeshId, Node, NodeId, Projection};
+use lumbre_scene::{Camera, CameraId, LightId, MeshId, Node, NodeId};
 
 /// What `load` finds.
 pub(super) struct Graph {
@@ -23,10 +23,10 @@ pub(super) fn load(
     choice: &SceneChoice,
     warnings: &mut Warnings,
 ) -> Result<Graph, IoError> {
-    let (mut cameras, camera_ids) = load_cameras(doc, warnings)?;
+    let mut cameras = cameras::load_all(doc, warnings)?;
     let mut nodes = Vec::with_capacity(doc.root.nodes.len());
     for i in 0..doc.root.nodes.len() {
-        nodes.push(load_node(doc, i, (light_count, &camera_ids), warnings)?);
+        nodes.push(load_node(doc, i, light_count, warnings)?);
     }
     let instances = nodes.iter().filter(|n| n.mesh.is_some()).count() as u64;
     doc.limits.hold(Bound::Instances, doc.path, "/nodes", instances)?;
@@ -43,47 +43,10 @@ pub(super) fn load(
     Ok(Graph { nodes, roots, cameras })
 }
 
-/// Perspective cameras, and for each camera of the file which one it became.
-fn load_cameras(
-    doc: &Document,
-    warnings: &mut Warnings,
-) -> Result<(Vec<Camera>, Vec<Option<CameraId>>), IoError> {
-    use gltf::json::camera::Type;
-    let (mut cameras, mut ids) = (Vec::new(), Vec::new());
-    for (i, json) in doc.root.cameras.iter().enumerate() {
-        let place = format!("/cameras/{i}");
-        match (&json.type_, &json.perspective) {
-            (Checked::Valid(Type::Perspective), Some(p)) => {
-                if !(p.yfov > 0.0 && p.yfov < std::f32::consts::PI) {
-                    let why = format!("yfov {} is not between 0 and π", p.yfov);
-                    return Err(doc.error(place + "/perspective", why));
-                }
-                let aspect = p.aspect_ratio.filter(|a| a.is_finite() && *a > 0.0);
-                if aspect != p.aspect_ratio {
-                    warnings.add(&place, "the aspect ratio is not positive and is ignored");
-                }
-                ids.push(Some(CameraId(cameras.len() as u32)));
-                cameras.push(Camera {
-                    name: json.name.clone().unwrap_or_default(),
-                    projection: Projection::Perspective { yfov: p.yfov, aspect },
-                    lens_radius: 0.0,
-                    focus_distance: 1.0,
-                });
-            }
-            (Checked::Valid(Type::Orthographic), _) => {
-                warnings.add(&place, "orthographic cameras are not supported and are skipped");
-                ids.push(None);
-            }
-            _ => return Err(doc.error(place, "is neither a perspective nor an orthographic camera")),
-        }
-    }
-    Ok((cameras, ids))
-}
-
 fn load_node(
     doc: &Document,
     index: usize,
-    (light_count, cameras): (usize, &[Option<CameraId>]),
+    light_count: usize,
     warnings: &mut Warnings,
 ) -> Result<Node, IoError> {
     let json = &doc.root.nodes[index];
@@ -102,7 +65,8 @@ fn load_node(
         node.mesh = Some(MeshId(mesh.value() as u32));
     }
     if let Some(camera) = json.camera {
-        node.camera = *doc.item(cameras, camera.value(), "camera", &|| format!("{place}/camera"))?;
+        doc.item(&doc.root.cameras, camera.value(), "camera", &|| format!("{place}/camera"))?;
+        node.camera = Some(CameraId(camera.value() as u32));
     }
     let value = json.extensions.as_ref().and_then(|e| e.others.get(lights::NAME));
     let extension = Object::new(doc, value, || format!("{place}/extensions/{}", lights::NAME))?;

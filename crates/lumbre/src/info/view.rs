@@ -6,6 +6,7 @@ use crate::camera::{self, CameraChoice, CameraOptions};
 use crate::light::light_kinds;
 use crate::output::is_black;
 use glam::Vec3;
+use lumbre_core::camera::Projection;
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_core::{Camera, Film};
 use lumbre_cpu::CpuBackend;
@@ -133,7 +134,12 @@ impl Eye<'_> {
         let (middle, radius) = (0.5 * (min + max), self.backend.scene().radius());
         let to = middle - self.camera.origin;
         let distance = to.length();
-        let corner = self.camera.tan_half_fov_y * self.camera.aspect.max(1.0).hypot(1.0);
+        // Half the height of what is seen at the distance of the scene, over that distance.
+        let half_height = match self.camera.projection {
+            Projection::Perspective { tan_half_fov_y } => tan_half_fov_y,
+            Projection::Orthographic { half_height } => half_height / distance.max(f32::MIN_POSITIVE),
+        };
+        let corner = half_height * self.camera.aspect.max(1.0).hypot(1.0);
         // Angles from the direction of the view to the middle of the scene, to the corner of the picture, and of the scene itself.
         let (away, half) = (to.angle_between(self.camera.forward), corner.atan());
         let across = if distance > radius { (radius / distance).asin() } else { std::f32::consts::PI };
