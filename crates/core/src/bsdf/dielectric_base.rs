@@ -28,7 +28,7 @@ pub struct DielectricBase {
     f90: f32,
     /// Largest band of `f0`.
     f0_max: f32,
-    /// Means of the base's albedo and `f0` over the bands, for choosing the lobe.
+    /// Means of the base's albedo and `f0` over the bands, for choosing the lobe; not read without an interface.
     diffuse_mean: f32,
     f0_mean: f32,
     /// 1 / (1 - Eavg), or 0 where the interface lets nothing through.
@@ -54,7 +54,16 @@ impl DielectricBase {
     /// A Lambert surface without an interface.
     #[inline]
     pub fn lambert(rho: Spectrum, sampling: DiffuseSampling) -> Self {
-        DielectricBase::new(Diffuse::lambert(rho, sampling), Spectrum::BLACK, 0.0, None)
+        DielectricBase {
+            diffuse: Diffuse::lambert(rho, sampling),
+            f0: Spectrum::BLACK,
+            f90: 0.0,
+            f0_max: 0.0,
+            diffuse_mean: 0.0,
+            f0_mean: 0.0,
+            scale: 1.0,
+            rough: None,
+        }
     }
 
     /// True when nothing lies over the diffuse base.
@@ -185,8 +194,10 @@ impl DielectricBase {
     /// Notes the scale of radiance that crossed.
     #[inline]
     fn crossed(&self, sample: Option<BsdfSample>, mode: TransportMode) -> Option<BsdfSample> {
-        let sample = sample?;
-        let crossed = sample.lobe.is_transmission();
-        Some(BsdfSample { eta_scale: if crossed { self.diffuse.crossing(mode) } else { 1.0 }, ..sample })
+        let mut sample = sample?;
+        if sample.lobe == Lobe::DiffuseTransmission {
+            sample.eta_scale = self.diffuse.crossing(mode);
+        }
+        Some(sample)
     }
 }

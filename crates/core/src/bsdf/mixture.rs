@@ -13,7 +13,7 @@ use super::lambert::DiffuseSampling;
 use super::metal::Metal;
 use super::phong::Phong;
 use super::thin::Thin;
-use super::{BsdfParams, BsdfSample, TransportMode, unit_interval};
+use super::{BsdfParams, BsdfSample, GlossParams, TransportMode, unit_interval};
 use crate::fresnel::f0_from_ior;
 use crate::math::{ONE_MINUS_EPSILON, Vec3};
 use crate::rgb::Spectrum;
@@ -269,12 +269,17 @@ fn metal(_: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
 fn base(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
     let diffuse = Diffuse::new(params, base_color);
     if let Some(gloss) = &params.gloss {
-        return Model::Gloss(Phong::new(diffuse, gloss));
+        return phong(diffuse, gloss);
     }
     let specular = unit_interval(params.specular);
     let normal = f0_from_ior(params.ior);
     let f0 = params.specular_color.map(|c| unit_interval(normal * c) * specular);
     Model::Base(DielectricBase::new(diffuse, f0, specular, rough))
+}
+
+#[cold]
+fn phong(diffuse: Diffuse, gloss: &GlossParams) -> Model {
+    Model::Gloss(Phong::new(diffuse, gloss))
 }
 
 #[inline]
