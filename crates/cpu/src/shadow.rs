@@ -154,16 +154,16 @@ impl Tracer<'_> {
             let it = Interaction::new(self.scene, &ray, &hit);
             let surface = Surface::new(self.scene, &it, -ray.dir, &media, hue, DiffuseSampling::Cosine);
             factor *= media.current().transmittance(hit.t - ray.t_min);
-            let cos = surface.frame.n.dot(ray.dir).abs();
+            let wo = surface.frame.to_local(-ray.dir);
             match surface.beyond {
                 Some(beyond) => {
                     through_solid = true;
-                    factor *= surface.bsdf.straight_transmittance(cos);
+                    factor *= surface.bsdf.straight_transmittance(wo);
                     media.cross(beyond, it.material, it.front);
                 }
                 None if walls == 0 => return Arriving::NOTHING,
                 None => {
-                    factor *= surface.bsdf.thin_transmittance(cos);
+                    factor *= surface.bsdf.thin_transmittance(wo);
                     walls -= 1;
                 }
             }

@@ -173,6 +173,7 @@ impl Surface {
         let mut params = BsdfParams {
             eta: boundary.map_or(1.0, |b| b.eta),
             eta_fresnel: boundary.and_then(|b| b.eta_fresnel),
+            inside: boundary.is_some() && !it.front,
             diffuse_sampling,
             ..bsdf_params(scene, material, &it.uv, base_color)
         };

@@ -27,7 +27,12 @@ struct Kind {
 impl Warnings {
     /// Notes `what` at `place` (may be empty).
     pub(crate) fn add(&mut self, place: impl ToString, what: impl ToString) {
-        self.add_kind(Kind { what: one_line(&what.to_string()), first_place: place.to_string(), count: 1 });
+        self.add_many(place, what, 1);
+    }
+
+    /// Notes `what`, which was met `count` times, first at `place`.
+    pub(crate) fn add_many(&mut self, place: impl ToString, what: impl ToString, count: usize) {
+        self.add_kind(Kind { what: one_line(&what.to_string()), first_place: place.to_string(), count });
     }
 
     fn add_kind(&mut self, kind: Kind) {

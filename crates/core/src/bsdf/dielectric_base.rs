@@ -1,18 +1,15 @@
 //! The opaque dielectric of glTF 2.0: a GGX interface over a diffuse base.
 //!
-//! The interface reflects f0 + (f90 - f0)(1 - wo·m)⁵ (glTF appendix B, KHR_materials_specular), so its albedo E(μ) is known exactly
-//! from two tables ([`super::albedo`]). The base is ρ (1-E(μo))(1-E(μi)) / (π (1-Eavg)) (Kelemen and Szirmay-Kalos 2001), with E
-//! the largest band of the interface, as KHR_materials_specular asks: a coloured interface does not give the base the complementary
+//! What the interface ([`super::interface`]) does not reflect reaches the base, ρ (1-E(μo))(1-E(μi)) / (π (1-Eavg)) (Kelemen and
+//! Szirmay-Kalos 2001), with E the largest band of the interface's albedo, as KHR_materials_specular asks: a coloured interface does not give the base the complementary
 //! tint. Reciprocal, never above 1 in any band, and 1 for a white Lambert base. glTF's literal mix loses or gains light at grazing angles.
 //! A base that is rough or transmits ([`super::diffuse`]) is scaled by the same factors, its other side taken to have the same
-//! interface. Without an interface (f90 = 0) the base is all there is.
+//! interface. Without an interface the base is all there is.
 
-use super::albedo::Directional;
-use super::compensation::Rough;
 use super::diffuse::Diffuse;
+use super::interface::{Interface, Shares};
 use super::lambert::DiffuseSampling;
 use super::{BsdfSample, Lobe, TransportMode};
-use crate::fresnel::{SCHLICK_AVERAGE, schlick};
 use crate::math::{ONE_MINUS_EPSILON, Vec3};
 use crate::microfacet::reflect;
 use crate::rgb::Spectrum;
@@ -24,52 +21,33 @@ const MIN_PROB: f32 = 1e-7;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DielectricBase {
     diffuse: Diffuse,
-    f0: Spectrum,
-    f90: f32,
-    /// Largest band of `f0`.
-    f0_max: f32,
-    /// Means of the base's albedo and `f0` over the bands, for choosing the lobe; not read without an interface.
+    interface: Interface,
+    /// Mean of the base's albedo over the bands, for choosing the lobe; not read without an interface.
     diffuse_mean: f32,
-    f0_mean: f32,
     /// 1 / (1 - Eavg), or 0 where the interface lets nothing through.
     scale: f32,
-    rough: Option<Rough>,
 }
 
 impl DielectricBase {
-    /// `f0`, `f90` in [0, 1] with `f0 <= f90`; `rough` is `None` for a smooth interface and is not read when `f90` is 0.
+    /// The base beneath an interface.
     #[inline]
-    pub fn new(diffuse: Diffuse, f0: Spectrum, f90: f32, rough: Option<Rough>) -> Self {
-        let f0_max = f0.max_component();
-        let average = match &rough {
-            Some(rough) => rough.albedo.average(),
-            None => Directional { deficit: 0.0, schlick: SCHLICK_AVERAGE },
-        };
-        let passed = average.passed(f0_max, f90);
+    pub fn new(diffuse: Diffuse, interface: Interface) -> Self {
+        let passed = interface.average_passed();
         let scale = if passed > 1e-7 { 1.0 / passed } else { 0.0 };
-        let (diffuse_mean, f0_mean) = (diffuse.albedo().average(), f0.average());
-        DielectricBase { diffuse, f0, f90, f0_max, diffuse_mean, f0_mean, scale, rough }
+        DielectricBase { diffuse, interface, diffuse_mean: diffuse.albedo().average(), scale }
     }
 
     /// A Lambert surface without an interface.
     #[inline]
     pub fn lambert(rho: Spectrum, sampling: DiffuseSampling) -> Self {
-        DielectricBase {
-            diffuse: Diffuse::lambert(rho, sampling),
-            f0: Spectrum::BLACK,
-            f90: 0.0,
-            f0_max: 0.0,
-            diffuse_mean: 0.0,
-            f0_mean: 0.0,
-            scale: 1.0,
-            rough: None,
-        }
+        let diffuse = Diffuse::lambert(rho, sampling);
+        DielectricBase { diffuse, interface: Interface::NONE, diffuse_mean: 0.0, scale: 1.0 }
     }
 
     /// True when nothing lies over the diffuse base.
     #[inline]
     fn is_bare(&self) -> bool {
-        self.f90 == 0.0
+        self.interface.is_none()
     }
 
     /// True for plain Lambert.
@@ -81,7 +59,7 @@ impl DielectricBase {
     /// True when the base or a rough interface scatters by a density.
     #[inline]
     pub fn is_smooth_lobe(&self) -> bool {
-        !self.diffuse.is_black() || (self.rough.is_some() && !self.is_bare())
+        !self.diffuse.is_black() || (self.interface.rough().is_some() && !self.is_bare())
     }
 
     /// Hemispherical albedo.
@@ -91,27 +69,13 @@ impl DielectricBase {
         if self.is_bare() {
             return diffuse;
         }
-        let average = match &self.rough {
-            Some(rough) => rough.albedo.average(),
-            None => Directional { deficit: 0.0, schlick: SCHLICK_AVERAGE },
-        };
-        self.f0.map(|f0| average.reflected(f0, self.f90)) + diffuse * average.passed(self.f0_max, self.f90)
-    }
-
-    #[inline]
-    fn at(&self, mu: f32) -> Directional {
-        match &self.rough {
-            Some(rough) => rough.albedo.directional(mu),
-            None => Directional::smooth(mu),
-        }
+        self.interface.albedo() + diffuse * self.interface.average_passed()
     }
 
     /// Probability of drawing from the interface: its share of the reflected light.
     #[inline]
-    fn prob_specular(&self, at_o: Directional) -> f32 {
-        let specular = at_o.reflected(self.f0_mean, self.f90);
-        let diffuse = self.diffuse_mean * at_o.passed(self.f0_max, self.f90);
-        let prob = specular / (specular + diffuse);
+    fn prob_specular(&self, at_o: Shares) -> f32 {
+        let prob = at_o.reflected / (at_o.reflected + self.diffuse_mean * at_o.passed);
         // Shares that no random number can meet are dropped, 0/0 (nothing reflects) with them.
         if prob > MIN_PROB { prob } else { 0.0 }
     }
@@ -125,26 +89,20 @@ impl DielectricBase {
         if wi.z <= 0.0 && self.diffuse.is_lambert() {
             return (Spectrum::BLACK, 0.0);
         }
-        self.layered_eval_pdf(self.at(wo.z), wo, wi, mode)
+        self.layered_eval_pdf(self.interface.shares(wo), wo, wi, mode)
     }
 
     #[inline]
-    fn layered_eval_pdf(
-        &self,
-        at_o: Directional,
-        wo: Vec3,
-        wi: Vec3,
-        mode: TransportMode,
-    ) -> (Spectrum, f32) {
+    fn layered_eval_pdf(&self, at_o: Shares, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
         let (base, pdf_base) = self.diffuse.eval_pdf(wo, wi, mode);
         let p = self.prob_specular(at_o);
-        let passed = at_o.passed(self.f0_max, self.f90) * self.at(wi.z.abs()).passed(self.f0_max, self.f90);
+        let passed = at_o.passed * self.interface.shares(wi).passed;
         let mut f = base * (passed * self.scale);
         let mut pdf = (1.0 - p) * pdf_base;
-        if let Some(rough) = self.rough.as_ref().filter(|_| wi.z > 0.0) {
+        if let Some(rough) = self.interface.rough().filter(|_| wi.z > 0.0) {
             let m = (wo + wi).normalize();
             let (specular, pdf_specular) = rough.ggx.reflection(wo, wi, m);
-            f += schlick(self.f0, self.f90, wo.dot(m)) * specular;
+            f += self.interface.reflectance(wo.dot(m)) * specular;
             pdf += p * pdf_specular;
         }
         (f, pdf)
@@ -163,13 +121,17 @@ impl DielectricBase {
             let (f, pdf) = self.diffuse.eval_pdf(wo, wi, mode);
             return self.crossed(BsdfSample::smooth(wi, f, pdf, Diffuse::lobe(wi)), mode);
         }
-        let at_o = self.at(wo.z);
+        let at_o = self.interface.shares(wo);
         let p = self.prob_specular(at_o);
         let (wi, lobe) = if u_lobe < p {
-            let Some(rough) = &self.rough else {
+            let Some(rough) = self.interface.rough() else {
                 let wi = Vec3::new(-wo.x, -wo.y, wo.z);
-                let f = schlick(self.f0, self.f90, wo.z);
-                return Some(BsdfSample::delta(wi, f, p, Lobe::SpecularReflection));
+                return Some(BsdfSample::delta(
+                    wi,
+                    self.interface.reflectance(wo.z),
+                    p,
+                    Lobe::SpecularReflection,
+                ));
             };
             let wi = reflect(wo, rough.ggx.sample_visible_normal(wo, u));
             if wi.z <= 0.0 {

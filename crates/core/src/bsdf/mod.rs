@@ -2,7 +2,7 @@
 //!
 //! `wo` points to the camera side, `wi` is the sampled side. Both are unit and point away from the surface. The side the ray came
 //! from is always +z: callers turn the frame. [`Bsdf`] is the closed form integrators use: the weighted mixture of glTF's
-//! metallic-roughness model with transmission.
+//! metallic-roughness model with transmission, under layers of sheen and varnish.
 //!
 //! | model | file | choice of direction |
 //! |---|---|---|
@@ -14,23 +14,34 @@
 //! | opaque dielectric | [`dielectric_base`] | visible normals + cosine |
 //! | boundary of a solid | [`dielectric`] | visible normals, Fresnel |
 //! | thin wall | [`thin`] | visible normals + compensation, Fresnel |
+//! | sheen | [`sheen`] | fitted heights and azimuths |
+//! | coat | [`coat`] | visible normals |
 
 pub mod albedo;
 mod albedo_data;
+pub mod aniso_albedo;
+mod aniso_albedo_deficit;
+mod aniso_albedo_schlick;
+pub mod coat;
 pub mod compensation;
 pub mod dielectric;
 pub mod dielectric_base;
 pub mod diffuse;
+mod interface;
 pub mod lambert;
+mod layered;
 pub mod metal;
-mod mixture;
+pub mod mixture;
 pub mod oren_nayar;
 mod params;
 pub mod phong;
+pub mod sheen;
+mod sheen_data;
 pub mod thin;
+pub mod thin_film;
 
 pub use lambert::DiffuseSampling;
-pub use mixture::Bsdf;
+pub use layered::Bsdf;
 pub use params::{BsdfParams, CoatParams, FilmParams, GlossParams, SheenParams};
 
 use crate::math::Vec3;

@@ -25,6 +25,8 @@ pub struct BsdfParams {
     pub thin: bool,
     /// For solids: index on the far side over index on the side of the ray.
     pub eta: f32,
+    /// For solids: the ray comes from inside. Sheen and coat lie on the outside.
+    pub inside: bool,
     /// For solids that disperse: the index ratio by which Fresnel's law shares the light out, where that is not `eta`. Both are at
     /// least 1 then.
     pub eta_fresnel: Option<f32>,
@@ -114,6 +116,7 @@ impl Default for BsdfParams {
             transmission: 0.0,
             thin: true,
             eta: 1.5,
+            inside: false,
             eta_fresnel: None,
             diffuse_sampling: DiffuseSampling::Cosine,
             diffuse_roughness: 0.0,

@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::meshopt;
-use super::uri::Resolver;
+use crate::resolver::Resolver;
 use crate::{Bound, IoError};
 use std::borrow::Cow;
 use std::collections::HashMap;

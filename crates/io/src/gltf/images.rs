@@ -2,9 +2,9 @@
 
 use super::buffers::Buffers;
 use super::document::Document;
-use super::uri::Resolver;
 use crate::image::ldr;
 use crate::limits::Room;
+use crate::resolver::Resolver;
 use crate::{Bound, IoError};
 use lumbre_scene::Image;
 use rayon::prelude::*;
