@@ -12,8 +12,10 @@ mod image;
 mod limits;
 mod obj;
 mod open;
+mod ply;
 mod polygon;
 mod resolver;
+mod stl;
 mod warnings;
 
 pub use error::{ErrorKind, IoError};

@@ -1,6 +1,6 @@
 //! Opens a scene, whatever its format.
 
-use crate::{IoError, Limits, files, gltf, obj};
+use crate::{IoError, Limits, files, gltf, obj, ply, stl};
 use lumbre_scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub struct Loaded {
 }
 
 /// What [`load_scene`] opens, for messages.
-pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj)";
+pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj), PLY (.ply), STL (.stl)";
 
 /// Loads a scene. The format is told by the first bytes, then by the extension.
 ///
@@ -37,9 +37,14 @@ pub fn load_scene(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loade
     if bytes.starts_with(b"glTF") {
         return gltf::load_glb(path, bytes, options);
     }
+    if ply::is_ply(&bytes) {
+        return ply::load(path, &bytes, options);
+    }
     match extension.as_str() {
         "gltf" => gltf::load_json(path, &bytes, options),
         "obj" => obj::load(path, &bytes, options),
+        "ply" => ply::load(path, &bytes, options),
+        "stl" => stl::load(path, &bytes, options),
         "glb" => Err(IoError::data(path, "byte 0", "not a binary glTF: it does not begin with `glTF`")),
         _ => Err(IoError::unsupported(
             path,
