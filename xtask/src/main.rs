@@ -3,6 +3,7 @@
 
 mod check;
 mod command;
+mod gallery;
 mod licences;
 mod lint;
 mod tree;
@@ -18,6 +19,7 @@ test [ARGS]     cargo test
 lint            rules of this project: crate dependencies, unsafe, sizes, forbidden calls
 typos           spelling of .rs, .md and .toml files
 licences        licences of all dependencies
+gallery [PART]  draw the pictures of docs/gallery.md again, those whose command contains PART
 ";
 
 fn main() -> ExitCode {
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
     let rest: Vec<String> = args.collect();
     let done = match (chore.as_str(), rest.is_empty()) {
         ("test", _) => command::cargo("test", &rest, &[]),
+        ("gallery", _) => gallery::run(&rest),
         ("check", true) => check::run(),
         ("lint", true) => lint::run(),
         ("typos", true) => typos::run(),

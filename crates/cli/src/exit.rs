@@ -59,6 +59,7 @@ impl From<IoError> for Failure {
     fn from(e: IoError) -> Self {
         let code = match e.kind() {
             ErrorKind::BadData => Code::BadData,
+            ErrorKind::BadChoice => Code::Usage,
             ErrorKind::CannotOpen => Code::CannotOpen,
             ErrorKind::CannotWrite => Code::CannotWrite,
         };

@@ -5,6 +5,7 @@ mod compare;
 mod console;
 mod exit;
 mod flags;
+mod info;
 mod interrupt;
 mod memory;
 mod progress;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
 fn run(command: &Command) -> Result<Code, Failure> {
     match command {
         Command::Render(args) => render::run(args),
+        Command::Info(args) => info::run(args),
         Command::Compare(args) => compare::run(args),
     }
 }

@@ -23,6 +23,7 @@ pub mod rgb;
 pub mod sampler;
 pub mod settings;
 pub mod warp;
+pub mod wavelength;
 
 pub use camera::Camera;
 pub use film::Film;

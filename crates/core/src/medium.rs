@@ -79,6 +79,12 @@ impl MediumStack {
         }
     }
 
+    /// All of them, to be changed in place.
+    #[inline]
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Medium> {
+        self.media[..self.len].iter_mut()
+    }
+
     /// Enters a solid.
     #[inline]
     pub fn enter(&mut self, medium: Medium) {

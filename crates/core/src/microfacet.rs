@@ -10,7 +10,7 @@ use crate::warp::uniform_cone;
 /// Below this width a surface counts as perfectly smooth.
 pub const ALPHA_SMOOTH: f32 = 1e-3;
 
-/// A GGX distribution. Both widths at least [`ALPHA_SMOOTH`]; equal ones are the isotropic case, the only one used so far.
+/// A GGX distribution. Both widths at least [`ALPHA_SMOOTH`]; equal ones are the isotropic case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ggx {
     /// Width along local x.
@@ -24,6 +24,20 @@ impl Ggx {
     #[inline]
     pub fn isotropic(alpha: f32) -> Self {
         Ggx { alpha_x: alpha, alpha_y: alpha }
+    }
+
+    /// `alpha` along y, widened along x by `strength` in (0, 1] towards 1 by its square (KHR_materials_anisotropy). Perfectly smooth only where
+    /// both are: then `alpha_x` is below [`ALPHA_SMOOTH`]; a smaller `alpha` beside a rough axis counts as that.
+    #[inline]
+    pub fn stretched(alpha: f32, strength: f32) -> Self {
+        let strength = strength.min(1.0);
+        Ggx { alpha_x: alpha + (1.0 - alpha) * strength * strength, alpha_y: alpha.max(ALPHA_SMOOTH) }
+    }
+
+    /// True when the widths differ.
+    #[inline]
+    pub fn is_anisotropic(&self) -> bool {
+        self.alpha_x != self.alpha_y
     }
 
     /// Density of normals D(m) per solid angle and area of the macroscopic surface; `m.z >= 0`. Heitz 2014.

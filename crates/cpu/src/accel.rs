@@ -129,6 +129,18 @@ impl Accel {
         }
     }
 
+    /// Memory held, in bytes.
+    pub fn memory(&self) -> usize {
+        let merged = |o: &Origin| match o {
+            Origin::Instance(_) => 0,
+            Origin::Merged(triangles) => size_of_val(&triangles[..]),
+        };
+        let meshes: usize = self.tlas.blas().iter().map(|b| b.memory()).sum();
+        let trunks = self.tlas.memory() + self.camera_tlas.as_ref().map_or(0, Tlas::memory);
+        let origins = size_of_val(&self.origins[..]) + self.origins.iter().map(merged).sum::<usize>();
+        meshes + trunks + origins
+    }
+
     /// The SIMD level in use.
     pub fn level(&self) -> SimdLevel {
         self.tlas.level()

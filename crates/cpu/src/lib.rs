@@ -7,6 +7,7 @@ pub mod accel;
 pub mod backend;
 #[allow(unsafe_code, reason = "SIMD kernels and the dispatch to them")]
 pub mod bvh;
+mod catcher;
 pub mod interaction;
 pub mod light_sampling;
 mod lobes;

@@ -1,4 +1,4 @@
-//! Next-event estimation: choose a light by power, a point on it, and know the density with which scattered rays would have been
+//! Next-event estimation: choose a light, mostly by power (`compile/lights.rs` makes the table), a point on it, and know the density with which scattered rays would have been
 //! matched against it.
 
 use crate::shadow::ShadowEnd;

@@ -23,6 +23,22 @@ pub enum PathEvent<'a> {
         /// Throughput on arrival.
         beta: Spectrum,
     },
+    /// The path took one wavelength.
+    Wavelength {
+        /// Which, nm.
+        nm: f32,
+        /// Factor on the throughput.
+        weight: Spectrum,
+    },
+    /// A shadow catcher let the path through.
+    Caught {
+        /// Where.
+        it: &'a Interaction,
+        /// Share of the direct light that arrives there.
+        share: Spectrum,
+        /// Shadow rays asked for it.
+        rays: u32,
+    },
     /// Light was met by the path itself: an emissive surface, the sun, the environment, an unlit surface.
     Emission {
         /// What shines.
@@ -97,8 +113,10 @@ pub struct RayCounter {
 impl PathObserver for RayCounter {
     #[inline(always)]
     fn event(&mut self, event: PathEvent<'_>) {
-        if matches!(event, PathEvent::Hit { .. } | PathEvent::Miss { .. } | PathEvent::Light { .. }) {
-            self.rays += 1;
+        match event {
+            PathEvent::Hit { .. } | PathEvent::Miss { .. } | PathEvent::Light { .. } => self.rays += 1,
+            PathEvent::Caught { rays, .. } => self.rays += u64::from(1 + rays),
+            _ => {}
         }
     }
 }
@@ -126,6 +144,16 @@ pub fn describe(event: &PathEvent<'_>) -> String {
             it.triangle,
             it.material,
             rgb(*beta)
+        ),
+        PathEvent::Wavelength { nm, weight } => format!("hue     {nm:.3} nm weight {}", rgb(*weight)),
+        PathEvent::Caught { it, share, .. } => format!(
+            "catches t {:.6} at {} instance {} triangle {} material {} shadow leaves {}",
+            it.t,
+            v(it.p),
+            it.instance,
+            it.triangle,
+            it.material,
+            rgb(*share)
         ),
         PathEvent::Emission { source, radiance, mis_weight, contribution } => format!(
             "found   {source}: radiance {} weight {mis_weight:.6} adds {}",

@@ -2,11 +2,12 @@
 //! sampling. Kajiya 1986; Veach 1997. An iterative loop, never recursion; the shader twin takes the same named steps in the
 //! same order.
 
+use crate::catcher::Catcher;
 use crate::interaction::Interaction;
 use crate::light_sampling::{LightSample, pdf_environment, pdf_sun, pdf_triangle, sample_light, sun};
 use crate::observer::{PathEvent, PathObserver};
 use crate::shadow::{Arriving, ShadowRay};
-use crate::surface::{Surface, emission};
+use crate::surface::{Hue, Surface, emission, index_at};
 use crate::tracer::{CoverageKey, Tracer};
 use glam::Vec3;
 use lumbre_core::bsdf::{BsdfSample, Lobe, TransportMode};
@@ -15,12 +16,16 @@ use lumbre_core::medium::MediumStack;
 use lumbre_core::mis::power_heuristic;
 use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::{RenderSettings, TransmissiveShadows};
+use lumbre_core::wavelength::Wavelength;
 use lumbre_core::{Ray, Spectrum};
 use lumbre_scene::compiled::NONE;
 use lumbre_scene::compiled::material::flag;
 
 /// Largest probability of surviving roulette: a path without absorption ends some day too.
 const MAX_SURVIVAL: f32 = 0.95;
+
+/// Most shadow catchers that one path passes; a further one is met as the plain surface that it is.
+const MOST_CATCHERS: u32 = 64;
 
 /// How the current ray came about: what light it meets must be weighed against.
 #[derive(Clone, Copy, Debug)]
@@ -45,9 +50,15 @@ struct Path<'a, 't, O> {
     /// Radiance scaling by refraction that is part of `beta`.
     eta_scale: f32,
     media: MediumStack,
+    /// The wavelength that it has taken, nm, once it needed one.
+    wavelength: Option<f32>,
     arrival: Arrival,
     /// So far it has only met delta lobes: what it finds is seen, not lit by.
     seen_by_camera: bool,
+    /// So far it is a straight line from the camera.
+    straight: bool,
+    /// Shadow catchers that it has passed.
+    caught: u32,
     /// Scattering events so far.
     depth: u32,
     max_depth: u32,
@@ -72,16 +83,41 @@ pub fn radiance<O: PathObserver>(
         beta: Spectrum::WHITE,
         eta_scale: 1.0,
         media,
+        wavelength: None,
         arrival,
         seen_by_camera: true,
+        straight: true,
+        caught: 0,
         depth: 0,
         max_depth: tracer.settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND),
     };
+    path.begin_inside();
     let first_hit = path.run();
     FilmSample { radiance: path.radiance, first_hit }
 }
 
 impl<O: PathObserver> Path<'_, '_, O> {
+    /// Takes a wavelength at once where the camera stands in a medium that disperses.
+    fn begin_inside(&mut self) {
+        let scene = self.tracer.scene;
+        let material = |id: u32| &scene.materials[id as usize];
+        if !self.media.iter_mut().any(|m| material(m.material).has(flag::DISPERSION)) {
+            return;
+        }
+        let wavelength = Wavelength::sample(self.sampler.wavelength());
+        self.take(&wavelength);
+        for m in self.media.iter_mut() {
+            m.ior = index_at(scene, material(m.material), wavelength.nm);
+        }
+    }
+
+    /// From here on the path carries one wavelength.
+    fn take(&mut self, wavelength: &Wavelength) {
+        self.beta *= wavelength.weight;
+        self.wavelength = Some(wavelength.nm);
+        self.observer.event(PathEvent::Wavelength { nm: wavelength.nm, weight: wavelength.weight });
+    }
+
     fn run(&mut self) -> Option<FirstHit> {
         let mut first_hit = None;
         loop {
@@ -97,10 +133,21 @@ impl<O: PathObserver> Path<'_, '_, O> {
             };
             // Absorb on the way to it.
             self.beta *= self.media.current().transmittance(it.t);
+            // A catcher shows the camera what lies behind it.
+            if self.passes_catcher(&it) {
+                if self.beta.is_black() {
+                    return self.end("in shadow", first_hit);
+                }
+                continue;
+            }
             // Build the surface.
             let wo = -self.ray.dir;
             let diffuse = self.tracer.settings.diffuse_sampling;
-            let surface = Surface::new(self.tracer.scene, &it, wo, &self.media, diffuse);
+            let hue = self.wavelength.map_or(Hue::All(self.sampler), Hue::One);
+            let surface = Surface::new(self.tracer.scene, &it, wo, &self.media, hue, diffuse);
+            if let Some(takes) = surface.takes.filter(|t| t.on_arrival) {
+                self.take(&takes.wavelength);
+            }
             self.observer.event(PathEvent::Hit { it: &it, ns: surface.frame.n, beta: self.beta });
             if self.depth == 0 {
                 first_hit = Some(first_hit_planes(&it, &surface));
@@ -135,6 +182,37 @@ impl<O: PathObserver> Path<'_, '_, O> {
                 return self.end("absorbed", first_hit);
             }
         }
+    }
+
+    /// True when the surface is a shadow catcher seen straight from the camera: the path has then moved on behind it.
+    #[inline]
+    fn passes_catcher(&mut self, it: &Interaction) -> bool {
+        if !self.straight {
+            return false;
+        }
+        let material = &self.tracer.scene.materials[it.material as usize];
+        if !material.has(flag::SHADOW_CATCHER) || self.caught == MOST_CATCHERS {
+            return false;
+        }
+        self.pass_catcher(it);
+        true
+    }
+
+    #[cold]
+    fn pass_catcher(&mut self, it: &Interaction) {
+        let catcher = Catcher {
+            it,
+            passed: self.caught,
+            media: self.media,
+            wavelength: self.wavelength,
+            depth: self.depth,
+            time: self.ray.time,
+        };
+        let caught = self.tracer.catch(&catcher, self.sampler);
+        self.observer.event(PathEvent::Caught { it, share: caught.share, rays: caught.rays });
+        self.beta *= caught.share;
+        self.caught += 1;
+        self.ray = Ray::new(it.leave(self.ray.dir), self.ray.dir, self.ray.time);
     }
 
     fn end(&mut self, reason: &'static str, first_hit: Option<FirstHit>) -> Option<FirstHit> {
@@ -225,9 +303,13 @@ impl<O: PathObserver> Path<'_, '_, O> {
         if reflects != (wi_local.z > 0.0) {
             return;
         }
-        let (f, pdf_bsdf) = surface.bsdf.eval_pdf(wo_local, wi_local, TransportMode::Radiance);
+        let (mut f, pdf_bsdf) = surface.bsdf.eval_pdf(wo_local, wi_local, TransportMode::Radiance);
         if f.is_black() {
             return;
+        }
+        // Light that crosses here into a solid that disperses has the wavelength that the path would take.
+        if let Some(takes) = surface.takes.filter(|t| !reflects && !t.on_arrival) {
+            f *= takes.wavelength.weight;
         }
         let Arriving { share: transmittance, through_solid } =
             self.light_transmittance(it, surface, &light, reflects);
@@ -255,24 +337,23 @@ impl<O: PathObserver> Path<'_, '_, O> {
         reflects: bool,
     ) -> Arriving {
         let mut media = self.media;
+        let mut wavelength = self.wavelength;
         if let Some(beyond) = surface.beyond.filter(|_| !reflects) {
             media.cross(beyond, it.material, it.front);
+            wavelength = wavelength.or(surface.takes.map(|t| t.wavelength.nm));
         }
-        let shadow = ShadowRay {
-            origin: it.leave(light.wi),
-            wi: light.wi,
-            end: light.end,
-            time: self.ray.time,
-            media,
-            wall_budget: self.max_depth - self.depth - 1,
-            // The sun can be hit, but only by luck; behind glass its light is left to shadow rays like that of a point.
-            to_delta_light: light.is_delta || light.light == self.tracer.scene.sun.light,
-        };
-        self.tracer.transmittance(&shadow, CoverageKey::shadow(self.sampler.coverage_key(), self.depth))
+        let time = self.ray.time;
+        let shadow = ShadowRay { time, wavelength, ..self.tracer.shadow_ray(it, light, media, self.depth) };
+        let key = CoverageKey::shadow(self.sampler.coverage_key(), self.depth);
+        self.tracer.transmittance(&shadow, key)
     }
 
     /// Moves on along the sampled direction.
     fn step(&mut self, it: &Interaction, surface: &Surface, s: &BsdfSample, wi: Vec3) {
+        if let Some(takes) = surface.takes.filter(|t| s.lobe.is_transmission() && !t.on_arrival) {
+            self.take(&takes.wavelength);
+        }
+        self.straight &= s.lobe == Lobe::ThinTransmission;
         self.beta *= s.weight;
         self.eta_scale *= s.eta_scale;
         self.depth += 1;

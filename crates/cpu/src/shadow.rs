@@ -1,13 +1,14 @@
 //! Shadow rays: how much light passes between two points in a straight line.
 
 use crate::interaction::{Interaction, material_of};
-use crate::surface::Surface;
+use crate::light_sampling::LightSample;
+use crate::surface::{Hue, Surface};
 use crate::tracer::{CoverageKey, Tracer};
 use glam::Vec3;
 use lumbre_core::bsdf::DiffuseSampling;
 use lumbre_core::medium::MediumStack;
 use lumbre_core::ray::offset_ray_origin;
-use lumbre_core::settings::TransmissiveShadows;
+use lumbre_core::settings::{RenderSettings, TransmissiveShadows};
 use lumbre_core::{Ray, Spectrum};
 use lumbre_scene::compiled::material::flag;
 
@@ -24,6 +25,8 @@ pub struct ShadowRay {
     pub time: f32,
     /// The media in which it begins.
     pub media: MediumStack,
+    /// The wavelength of the path, nm, if it has taken one.
+    pub wavelength: Option<f32>,
     /// Thin walls it may pass before the path would be too long.
     pub wall_budget: u32,
     /// Its light cannot be hit by scattered rays.
@@ -80,6 +83,33 @@ impl Arriving {
 const MOST_SURFACES: u32 = 64;
 
 impl Tracer<'_> {
+    /// The line to a light from a vertex with `depth` scattering events before it, inside `media`; for paths of no particular moment
+    /// and wavelength.
+    #[inline]
+    pub fn shadow_ray(
+        &self,
+        it: &Interaction,
+        light: &LightSample,
+        media: MediumStack,
+        depth: u32,
+    ) -> ShadowRay {
+        ShadowRay {
+            origin: it.leave(light.wi),
+            wi: light.wi,
+            end: light.end,
+            time: 0.0,
+            media,
+            wavelength: None,
+            wall_budget: self
+                .settings
+                .max_depth
+                .unwrap_or(RenderSettings::DEPTH_BOUND)
+                .saturating_sub(depth + 1),
+            // The sun can be hit, but only by luck; behind glass its light is left to shadow rays like that of a point.
+            to_delta_light: light.is_delta || light.light == self.scene.sun.light,
+        }
+    }
+
     /// How much of the light arrives.
     pub fn transmittance(&self, shadow: &ShadowRay, key: CoverageKey) -> Arriving {
         let ray = shadow.ray();
@@ -115,24 +145,25 @@ impl Tracer<'_> {
         let mut factor = Spectrum::WHITE;
         let mut through_solid = false;
         let mut ray = ray;
+        let hue = shadow.wavelength.map_or(Hue::Straight, Hue::One);
         for _ in 0..MOST_SURFACES {
             let Some(hit) = self.accel.closest_hit(&ray, |hit| self.covered(hit, key)) else {
                 let share = factor * media.current().transmittance(ray.t_max - ray.t_min);
                 return Arriving { share, through_solid };
             };
             let it = Interaction::new(self.scene, &ray, &hit);
-            let surface = Surface::new(self.scene, &it, -ray.dir, &media, DiffuseSampling::Cosine);
+            let surface = Surface::new(self.scene, &it, -ray.dir, &media, hue, DiffuseSampling::Cosine);
             factor *= media.current().transmittance(hit.t - ray.t_min);
-            let cos = surface.frame.n.dot(ray.dir).abs();
+            let wo = surface.frame.to_local(-ray.dir);
             match surface.beyond {
                 Some(beyond) => {
                     through_solid = true;
-                    factor *= surface.bsdf.straight_transmittance(cos);
+                    factor *= surface.bsdf.straight_transmittance(wo);
                     media.cross(beyond, it.material, it.front);
                 }
                 None if walls == 0 => return Arriving::NOTHING,
                 None => {
-                    factor *= surface.bsdf.thin_transmittance(cos);
+                    factor *= surface.bsdf.thin_transmittance(wo);
                     walls -= 1;
                 }
             }

@@ -5,6 +5,8 @@ use crate::lobes;
 use glam::Vec3;
 use lumbre_core::bsdf::{Bsdf, BsdfParams, DiffuseSampling};
 use lumbre_core::medium::{Medium, MediumStack};
+use lumbre_core::sampler::Sampler;
+use lumbre_core::wavelength::{Wavelength, dispersed_index};
 use lumbre_core::{Frame, Rgb, Spectrum};
 use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::NONE;
@@ -24,6 +26,28 @@ pub struct Surface {
     pub base_color: Rgb,
     /// The medium on the far side, for a solid.
     pub beyond: Option<Medium>,
+    /// The wavelength that a path without one takes here.
+    pub takes: Option<Takes>,
+}
+
+/// What a path carries, for solids that disperse.
+#[derive(Clone, Copy, Debug)]
+pub enum Hue<'a> {
+    /// All wavelengths; the stream knows which one it takes when it must.
+    All(&'a Sampler),
+    /// One, nm.
+    One(f32),
+    /// All, along a line that does not bend: the d line stands for them.
+    Straight,
+}
+
+/// A wavelength that a path must take.
+#[derive(Clone, Copy, Debug)]
+pub struct Takes {
+    /// Which one.
+    pub wavelength: Wavelength,
+    /// Already on arrival. Otherwise only when it crosses: what is reflected does not depend on it.
+    pub on_arrival: bool,
 }
 
 /// Base colour and alpha: factor × texture × vertex colour.
@@ -68,21 +92,91 @@ pub fn medium(material: &MaterialRecord, id: u32) -> Medium {
     Medium { ior: material.ior, absorption: material.absorption, material: id }
 }
 
+/// The index of refraction of a solid at a wavelength.
+#[inline]
+pub fn index_at(scene: &CompiledScene, material: &MaterialRecord, nm: f32) -> f32 {
+    if !material.has(flag::DISPERSION) {
+        return material.ior;
+    }
+    dispersed_index(material.ior, scene.lobes[material.lobes as usize].dispersion, nm)
+}
+
+/// The two sides of a solid's boundary.
+#[derive(Clone, Copy, Debug)]
+struct Boundary {
+    /// Index beyond over index here.
+    eta: f32,
+    /// That of the d line, where it shares out the light.
+    eta_fresnel: Option<f32>,
+    beyond: Medium,
+    takes: Option<Takes>,
+}
+
+impl Boundary {
+    #[inline]
+    fn new(scene: &CompiledScene, it: &Interaction, media: &MediumStack, hue: Hue<'_>) -> Self {
+        let material = &scene.materials[it.material as usize];
+        let inside = medium(material, it.material);
+        if material.has(flag::DISPERSION) {
+            return Boundary::dispersed(scene, it, media, inside, hue);
+        }
+        let (here, beyond) = media.sides(inside, it.front);
+        Boundary { eta: beyond.ior / here.ior, eta_fresnel: None, beyond, takes: None }
+    }
+
+    /// Media that a path is in have the index of its wavelength already: without one it is in none that disperses, or does not know.
+    #[cold]
+    fn dispersed(
+        scene: &CompiledScene,
+        it: &Interaction,
+        media: &MediumStack,
+        inside: Medium,
+        hue: Hue<'_>,
+    ) -> Self {
+        let material = &scene.materials[it.material as usize];
+        let at = |nm| {
+            let inside = Medium { ior: index_at(scene, material, nm), ..inside };
+            let (here, beyond) = media.sides(inside, it.front);
+            (beyond.ior / here.ior, beyond)
+        };
+        let plain = |(eta, beyond)| Boundary { eta, eta_fresnel: None, beyond, takes: None };
+        let wavelength = match hue {
+            Hue::One(nm) => return plain(at(nm)),
+            Hue::Straight => {
+                let (here, beyond) = media.sides(inside, it.front);
+                return plain((beyond.ior / here.ior, beyond));
+            }
+            Hue::All(sampler) => Wavelength::sample(sampler.wavelength()),
+        };
+        let (eta, beyond) = at(wavelength.nm);
+        let eta_d = material.ior / media.current().ior;
+        // Into a thinner medium total reflection depends on the wavelength, so what is reflected does too.
+        let on_arrival = !it.front || eta.min(eta_d) < 1.0;
+        let takes = Some(Takes { wavelength, on_arrival });
+        Boundary { eta, eta_fresnel: (!on_arrival).then_some(eta_d), beyond, takes }
+    }
+}
+
 impl Surface {
-    /// The surface at `it`, seen from `wo`, with the path inside `media`.
+    /// The surface at `it`, seen from `wo` by light of `hue`, with the path inside `media`.
     pub fn new(
         scene: &CompiledScene,
         it: &Interaction,
         wo: Vec3,
         media: &MediumStack,
+        hue: Hue<'_>,
         diffuse_sampling: DiffuseSampling,
     ) -> Self {
         let material = &scene.materials[it.material as usize];
         let base_color = base_color(scene, material, &it.uv, &it.color).rgb;
-        let sides = material.has(flag::SOLID).then(|| media.sides(medium(material, it.material), it.front));
-        let eta = sides.map_or(1.0, |(here, beyond)| beyond.ior / here.ior);
-        let mut params =
-            BsdfParams { eta, diffuse_sampling, ..bsdf_params(scene, material, &it.uv, base_color) };
+        let boundary = material.has(flag::SOLID).then(|| Boundary::new(scene, it, media, hue));
+        let mut params = BsdfParams {
+            eta: boundary.map_or(1.0, |b| b.eta),
+            eta_fresnel: boundary.and_then(|b| b.eta_fresnel),
+            inside: boundary.is_some() && !it.front,
+            diffuse_sampling,
+            ..bsdf_params(scene, material, &it.uv, base_color)
+        };
         let ng = if it.front { it.ng } else { -it.ng };
         let normals = ShadingNormals { scene, it, wo, ng };
         let normal = normals.mapped(&material.normal_texture, material.normal_scale);
@@ -90,7 +184,8 @@ impl Surface {
         if material.lobes != NONE {
             frame = lobes::add(&scene.lobes[material.lobes as usize], material, &normals, frame, &mut params);
         }
-        Surface { frame, ng, bsdf: Bsdf::new(&params), base_color, beyond: sides.map(|(_, beyond)| beyond) }
+        let (beyond, takes) = boundary.map_or((None, None), |b| (Some(b.beyond), b.takes));
+        Surface { frame, ng, bsdf: Bsdf::new(&params), base_color, beyond, takes }
     }
 }
 

@@ -12,6 +12,8 @@ pub enum ErrorKind {
     BadData,
     /// The file, or one that it names, cannot be opened or read.
     CannotOpen,
+    /// The caller asked for a part of the file that it does not have.
+    BadChoice,
     /// The output cannot be written.
     CannotWrite,
 }
@@ -63,6 +65,18 @@ pub enum IoError {
         /// The limit.
         limit: u64,
     },
+    /// The file has no part of this name or number.
+    #[error("{}: no {what} {wanted}; {}", show(path), list(available))]
+    NotThere {
+        /// The file.
+        path: PathBuf,
+        /// What kind of part.
+        what: &'static str,
+        /// The name or number that was asked for.
+        wanted: String,
+        /// Names of what there is.
+        available: Vec<String>,
+    },
     /// A file cannot be written; an older file of that name is unchanged.
     #[error("{}: cannot write: {reason}", show(path))]
     Write {
@@ -79,6 +93,7 @@ impl IoError {
         match self {
             IoError::Open { .. } => ErrorKind::CannotOpen,
             IoError::Data { .. } | IoError::Unsupported { .. } | IoError::Limit { .. } => ErrorKind::BadData,
+            IoError::NotThere { .. } => ErrorKind::BadChoice,
             IoError::Write { .. } => ErrorKind::CannotWrite,
         }
     }
@@ -90,6 +105,7 @@ impl IoError {
             | IoError::Data { path, .. }
             | IoError::Unsupported { path, .. }
             | IoError::Limit { path, .. }
+            | IoError::NotThere { path, .. }
             | IoError::Write { path, .. } => path,
         }
     }
@@ -122,6 +138,15 @@ impl IoError {
         }
     }
 
+    pub(crate) fn not_there(path: &Path, what: &'static str, wanted: String, available: &[String]) -> Self {
+        IoError::NotThere {
+            path: path.into(),
+            what,
+            wanted: one_line(&wanted),
+            available: available.to_vec(),
+        }
+    }
+
     pub(crate) fn write(path: &Path, reason: impl fmt::Display) -> Self {
         IoError::Write { path: path.into(), reason: one_line(&reason.to_string()) }
     }
@@ -133,6 +158,7 @@ impl IoError {
             | IoError::Data { path, .. }
             | IoError::Unsupported { path, .. }
             | IoError::Limit { path, .. }
+            | IoError::NotThere { path, .. }
             | IoError::Write { path, .. } => *path = new.into(),
         }
         self
@@ -145,7 +171,7 @@ impl IoError {
             | IoError::Data { place, .. }
             | IoError::Unsupported { place, .. }
             | IoError::Limit { place, .. } => *place = new.into(),
-            IoError::Write { .. } => {}
+            IoError::NotThere { .. } | IoError::Write { .. } => {}
         }
         self
     }
@@ -170,6 +196,18 @@ impl IoError {
     }
 }
 
+/// What there is, in a line that a file of a million names cannot make endless.
+fn list(names: &[String]) -> String {
+    const MOST: usize = 30;
+    if names.is_empty() {
+        return "there are none".into();
+    }
+    let short = |name: &String| format!("{:?}", name.chars().take(60).collect::<String>());
+    let shown: Vec<String> = names.iter().take(MOST).map(short).collect();
+    let more = if names.len() > MOST { format!(" and {} more", names.len() - MOST) } else { String::new() };
+    format!("there are {}{more}", shown.join(", "))
+}
+
 fn prefix(place: &str) -> String {
     if place.is_empty() { String::new() } else { format!("{place}: ") }
 }
@@ -182,8 +220,9 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Control characters, which could break the line or steer a terminal, become escapes.
-pub(crate) fn one_line(text: &str) -> String {
+/// Text from a file made fit for a line on a terminal: control characters, which could break it or steer the terminal, become
+/// escapes.
+pub fn one_line(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.trim().chars() {
         if c == '\n' {

@@ -4,6 +4,7 @@
 //! cannot lead out of its folder, and whatever is wrong ends in one [`IoError`] that names the file and the place.
 #![forbid(unsafe_code)]
 
+mod describe;
 mod error;
 mod files;
 mod gltf;
@@ -18,11 +19,12 @@ mod resolver;
 mod stl;
 mod warnings;
 
-pub use error::{ErrorKind, IoError};
+pub use describe::{Description, UsedExtension, describe_scene};
+pub use error::{ErrorKind, IoError, one_line};
 pub use files::check_writable;
 pub use gltf::{GLTF_EXTENSIONS, GltfExtension, Support};
 pub use image::exr::{ExrImage, ExrLayer, read_exr, write_exr};
 pub use image::png::write_png;
 pub use image::{LinearImage, LoadedEnvironment, Range, read_environment, read_linear_image, read_picture};
 pub use limits::{Bound, Limits};
-pub use open::{LoadOptions, Loaded, SCENE_FORMATS, load_scene};
+pub use open::{LoadOptions, Loaded, SCENE_FORMATS, SceneChoice, load_scene};

@@ -1,5 +1,6 @@
 //! Opens a scene, whatever its format.
 
+use crate::describe::Description;
 use crate::{IoError, Limits, files, gltf, obj, ply, stl};
 use lumbre_scene::Scene;
 use std::path::{Path, PathBuf};
@@ -9,8 +10,24 @@ use std::path::{Path, PathBuf};
 pub struct LoadOptions {
     /// Bounds on what the file may ask for.
     pub limits: Limits,
+    /// Which of the file's scenes.
+    pub scene: SceneChoice,
+    /// Which set of materials (`KHR_materials_variants`), by name; `None`: the materials that stand without one.
+    pub variant: Option<String>,
     /// Folders beside that of the scene from which files that it names may be read.
     pub asset_dirs: Vec<PathBuf>,
+}
+
+/// Which scene of a file that holds several.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum SceneChoice {
+    /// The one that the file names as such, else its first.
+    #[default]
+    Default,
+    /// By its place in the file, from 0.
+    Index(usize),
+    /// By its name; the first one of that name.
+    Name(String),
 }
 
 /// A scene, and what there is to say about how it was read.
@@ -29,22 +46,60 @@ pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj), P
 ///
 /// # Errors
 /// `CannotOpen` if the file or one that it names cannot be read; `BadData` if it is no scene, is damaged, requires
-/// what is not supported, or exceeds a limit.
+/// what is not supported, or exceeds a limit; `BadChoice` if the options name what it does not have.
 pub fn load_scene(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loaded, IoError> {
     let path = path.as_ref();
     let bytes = files::read_file(path, options.limits.max_file_bytes)?;
-    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    match format_of(path, &bytes)? {
+        Format::Glb => gltf::load_glb(path, bytes, options),
+        Format::Gltf => gltf::load_json(path, &bytes, options),
+        Format::Obj => obj::load(path, &bytes, options),
+        Format::Ply => ply::load(path, &bytes, options),
+        Format::Stl => stl::load(path, &bytes, options),
+    }
+}
+
+/// A format of scenes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Glb,
+    Gltf,
+    Obj,
+    Ply,
+    Stl,
+}
+
+impl Format {
+    /// What a file of this format says of itself.
+    pub(crate) fn describe(
+        self,
+        path: &Path,
+        bytes: &[u8],
+        options: &LoadOptions,
+    ) -> Result<Description, IoError> {
+        match self {
+            Format::Glb | Format::Gltf => gltf::describe(path, bytes, options),
+            Format::Obj => Ok(Description::plain("Wavefront OBJ", bytes)),
+            Format::Ply => Ok(Description::plain("Stanford PLY", bytes)),
+            Format::Stl => Ok(Description::plain("STL", bytes)),
+        }
+    }
+}
+
+/// The format of a file, by its first bytes, then by its extension.
+pub(crate) fn format_of(path: &Path, bytes: &[u8]) -> Result<Format, IoError> {
     if bytes.starts_with(b"glTF") {
-        return gltf::load_glb(path, bytes, options);
+        return Ok(Format::Glb);
     }
-    if ply::is_ply(&bytes) {
-        return ply::load(path, &bytes, options);
+    if ply::is_ply(bytes) {
+        return Ok(Format::Ply);
     }
+    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     match extension.as_str() {
-        "gltf" => gltf::load_json(path, &bytes, options),
-        "obj" => obj::load(path, &bytes, options),
-        "ply" => ply::load(path, &bytes, options),
-        "stl" => stl::load(path, &bytes, options),
+        "gltf" => Ok(Format::Gltf),
+        "obj" => Ok(Format::Obj),
+        "ply" => Ok(Format::Ply),
+        "stl" => Ok(Format::Stl),
         "glb" => Err(IoError::data(path, "byte 0", "not a binary glTF: it does not begin with `glTF`")),
         _ => Err(IoError::unsupported(
             path,

@@ -9,7 +9,7 @@ use lumbre_io::{
     ExrImage, ExrLayer, IoError, Limits, LoadOptions, load_scene, read_environment, read_exr,
     read_linear_image, write_exr, write_png,
 };
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// Mutations of each file; set `LUMBRE_MUTATIONS` for more.
@@ -272,6 +272,49 @@ fn png_and_jpeg() {
     let color = image::ExtendedColorType::Rgb8;
     image::write_buffer_with_format(&mut jpeg, &rgb, 24, 24, color, image::ImageFormat::Jpeg).unwrap();
     survive("a.jpg", &jpeg.into_inner(), read);
+}
+
+fn data(name: &str) -> Vec<u8> {
+    std::fs::read(format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+#[test]
+fn webp_bmp_tga_and_ktx2() {
+    let read = |path: &Path| read_linear_image(path, None, &limits());
+    let rgb: Vec<u8> = picture(24).iter().flat_map(|p| p.to_array().map(|c| c as u8 * 9)).collect();
+    for (name, format) in [
+        ("a.webp", image::ImageFormat::WebP),
+        ("a.bmp", image::ImageFormat::Bmp),
+        ("a.tga", image::ImageFormat::Tga),
+    ] {
+        let mut file = std::io::Cursor::new(Vec::new());
+        let color = image::ExtendedColorType::Rgb8;
+        image::write_buffer_with_format(&mut file, &rgb, 24, 24, color, format).unwrap();
+        survive(name, &file.into_inner(), read);
+    }
+    for name in ["etc1s.ktx2", "etc1s_alpha_mips.ktx2", "uastc.ktx2"] {
+        survive(name, &data(name), read);
+    }
+}
+
+/// Mutates only the streams: what is around them is mutated by the test of plain scenes.
+#[test]
+fn draco_and_meshopt() {
+    let options = LoadOptions { limits: limits(), ..LoadOptions::default() };
+    let compile =
+        |path: &Path| load_scene(path, &options).map(|l| lumbre_scene::compile(&l.scene).map(|_| ()));
+    let cases = |name: &str| -> Vec<Value> { serde_json::from_slice(&data(name)).unwrap() };
+    let survive_in = |case: &Value, scene: fn(&Value, &[u8]) -> Gltf| {
+        let name = format!("{}.stream", case["name"].as_str().unwrap());
+        survive(&name, &common::unbase64(&case["stream"]), |path| {
+            let g = scene(case, &std::fs::read(path).unwrap());
+            let path = path.with_extension("glb");
+            std::fs::write(&path, g.glb()).unwrap();
+            compile(&path)
+        });
+    };
+    cases("draco.json").iter().for_each(|case| survive_in(case, common::draco_scene));
+    cases("meshopt.json").iter().for_each(|case| survive_in(case, common::meshopt_scene));
 }
 
 #[test]

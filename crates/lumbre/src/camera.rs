@@ -1,9 +1,10 @@
 //! Which camera a picture is taken with.
 
+use crate::info::CameraInfo;
 use glam::{Affine3A, Mat4, Vec3};
-use lumbre_core::Camera;
+use lumbre_core::camera::{Camera, Projection};
 use lumbre_core::math::{atan2, sin_cos, tan};
-use lumbre_scene::{CompiledScene, Projection, Scene};
+use lumbre_scene::{CompiledScene, Projection as Authored, Scene};
 
 /// Vertical field of view where nothing says otherwise, radians (45°).
 pub const DEFAULT_FOV: f32 = core::f32::consts::FRAC_PI_4;
@@ -29,7 +30,7 @@ pub struct CameraOptions {
     pub look_from: Option<Vec3>,
     /// Point in the centre of the picture; replaces the camera's direction.
     pub look_at: Option<Vec3>,
-    /// Vertical field of view, radians.
+    /// Vertical field of view, radians. It makes an orthographic camera a perspective one.
     pub fov: Option<f32>,
 }
 
@@ -82,6 +83,16 @@ pub fn camera_names(scene: &Scene) -> Vec<String> {
     placed(scene).into_iter().enumerate().map(name).collect()
 }
 
+/// What there is to know about the cameras of a scene, in order.
+pub(crate) fn infos(scene: &Scene) -> Vec<CameraInfo> {
+    let one = |p: Placed<'_>| CameraInfo {
+        name: p.names.into_iter().find(|n| !n.is_empty()).unwrap_or_default().to_string(),
+        projection: p.camera.projection,
+        position: p.to_world.w_axis.truncate(),
+    };
+    placed(scene).into_iter().map(one).collect()
+}
+
 /// The camera that was chosen; `None`: the default one of a scene that has none.
 fn chosen<'a, 's>(
     scene: &Scene,
@@ -106,8 +117,16 @@ fn chosen<'a, 's>(
 pub fn authored_aspect(scene: &Scene, choice: &CameraChoice) -> Result<Option<f32>, NoSuchCamera> {
     let cameras = placed(scene);
     let Some(camera) = chosen(scene, &cameras, choice)? else { return Ok(None) };
-    let Projection::Perspective { aspect, .. } = camera.camera.projection;
-    Ok(aspect.filter(|a| a.is_finite() && *a > 0.0))
+    Ok(framed_aspect(&camera.camera.projection))
+}
+
+/// Width over height that a projection was framed for.
+fn framed_aspect(projection: &Authored) -> Option<f32> {
+    let aspect = match *projection {
+        Authored::Perspective { aspect, .. } => aspect,
+        Authored::Orthographic { xmag, ymag } => Some(xmag / ymag),
+    };
+    aspect.filter(|a| a.is_finite() && *a > 0.0)
 }
 
 /// Finds or makes the camera for a picture of this aspect (width over height).
@@ -128,11 +147,15 @@ pub fn find_camera(
 /// The authored camera. A picture wider than the author framed keeps the height of the view, a narrower one its width, so that
 /// nothing the author showed is cut off.
 fn from_scene(p: &Placed<'_>, fov: Option<f32>, aspect: f32) -> Camera {
-    let Projection::Perspective { yfov, aspect: authored } = p.camera.projection;
-    let mut camera = Camera::from_transform(Affine3A::from_mat4(p.to_world), fov.unwrap_or(yfov), aspect);
-    if let (Some(authored), None) = (authored.filter(|a| *a > 0.0), fov) {
-        camera.tan_half_fov_y *= (authored / aspect).max(1.0);
+    let mut projection = match (fov, p.camera.projection) {
+        (Some(fov), _) => Projection::perspective(fov),
+        (None, Authored::Perspective { yfov, .. }) => Projection::perspective(yfov),
+        (None, Authored::Orthographic { ymag, .. }) => Projection::Orthographic { half_height: ymag },
+    };
+    if let (Some(authored), None) = (framed_aspect(&p.camera.projection), fov) {
+        projection = projection.scaled((authored / aspect).max(1.0));
     }
+    let mut camera = Camera::from_transform(Affine3A::from_mat4(p.to_world), projection, aspect);
     camera.lens_radius = p.camera.lens_radius;
     camera.focus_distance = p.camera.focus_distance;
     camera
@@ -147,7 +170,7 @@ fn aimed(base: Camera, options: &CameraOptions) -> Camera {
     let target = options.look_at.unwrap_or(eye + base.forward);
     let turned = Camera::look_at(eye, target, Vec3::Y, 1.0, base.aspect);
     Camera {
-        tan_half_fov_y: base.tan_half_fov_y,
+        projection: base.projection,
         lens_radius: base.lens_radius,
         focus_distance: base.focus_distance,
         ..turned

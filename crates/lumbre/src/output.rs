@@ -34,3 +34,9 @@ pub fn to_exr(film: &Film, metadata: Vec<(String, String)>) -> ExrImage {
         metadata,
     }
 }
+
+/// Whether samples were taken and none of them brought any light.
+pub fn is_black(film: &Film) -> bool {
+    let taken = film.pixels().iter().any(|p| p.samples() > 0);
+    taken && film.pixels().iter().all(|p| p.radiance().max_component() <= 0.0)
+}

@@ -147,8 +147,10 @@ pub fn data_file() -> String {
     out
 }
 
-fn literals(values: &[f64]) -> String {
-    let text: Vec<String> = values.iter().map(|v| format!("{v:.4e}")).collect();
+/// Numbers as a data file has them.
+pub(crate) fn literals(values: &[f64]) -> String {
+    let text: Vec<String> =
+        values.iter().map(|v| format!("{:.4e}", if v.abs() < 1e-30 { 0.0 } else { *v })).collect();
     text.join(", ")
 }
 

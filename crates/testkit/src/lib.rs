@@ -1,16 +1,19 @@
 //! Test tools of Lumbre: statistical tests of samplers and models, reference quadratures, scene builders.
 #![forbid(unsafe_code)]
 
+pub mod aniso_tables;
 pub mod bsdf_rows;
 pub mod bsdf_tables;
 pub mod chi_square;
 pub mod convergence;
 pub mod furnace;
+pub mod fuzzing;
 pub mod measure;
 pub mod npy;
 pub mod plot;
 pub mod ready;
 pub mod references;
 pub mod shapes;
+pub mod sheen_tables;
 pub mod square;
 pub mod z_test;

@@ -1,7 +1,7 @@
 //! Chi-square of every surface's sampling against its density; also that the density integrates to 1 less what deltas and
 //! ended samples take.
 
-use lumbre_core::bsdf::{Bsdf, TransportMode};
+use lumbre_core::bsdf::{Bsdf, BsdfParams, TransportMode};
 use lumbre_core::fresnel::{dielectric_refracted, refract};
 use lumbre_core::hash::unit;
 use lumbre_core::math::Vec3;
@@ -13,7 +13,7 @@ use lumbre_testkit::furnace::direction;
 const DRAWS: usize = 1_000_000;
 const COSINES: [f32; 3] = [0.95, 0.4, 0.06];
 /// Tests that share the significance: all rows, cosines and sides, rounded up.
-const TESTS: usize = 150;
+const TESTS: usize = 450;
 const SIGNIFICANCE: f64 = 0.01;
 
 /// A side of the surface.
@@ -52,6 +52,12 @@ fn chi_square(
 
 /// Bins suited to a row: equal areas where it is broad, crowded about the mirror and the refracted direction where it is narrow.
 fn grids(row: &Row, wo: Vec3) -> Vec<(Grid, Side)> {
+    if row.params.anisotropy > 0.0 {
+        // The draws lie along the cone about y that the mirror direction is on, as narrow as the smaller width.
+        let narrow = Grid { axis: Vec3::Y, ..Grid::broad() }.with_edges();
+        let grid = if row.alpha() > 0.06 { Grid::broad() } else { narrow };
+        return vec![(grid, Side::Both)];
+    }
     let alpha = f64::from(row.alpha());
     let eta = if row.params.thin { 1.0 } else { row.params.eta };
     // Refraction turns a facet's tilt into a deviation of about eta - 1 times it.
@@ -106,6 +112,26 @@ fn bases() {
 }
 
 #[test]
+fn diffuse() {
+    run(&bsdf_rows::diffuse(), 5_000);
+}
+
+#[test]
+fn gloss() {
+    run(&bsdf_rows::gloss(), 6_000);
+}
+
+#[test]
+fn anisotropic() {
+    run(&bsdf_rows::anisotropic(), 7_000);
+}
+
+#[test]
+fn films() {
+    run(&bsdf_rows::films(), 8_000);
+}
+
+#[test]
 fn transmissive() {
     run(&bsdf_rows::transmissive(), 3_000);
 }
@@ -113,6 +139,21 @@ fn transmissive() {
 #[test]
 fn mixtures() {
     run(&bsdf_rows::mixtures(), 4_000);
+}
+
+#[test]
+fn coats() {
+    run(&bsdf_rows::coats(), 5_000);
+}
+
+#[test]
+fn tilted_coats() {
+    run(&bsdf_rows::tilted_coats(), 6_000);
+}
+
+#[test]
+fn sheens() {
+    run(&bsdf_rows::sheens(), 7_000);
 }
 
 /// The same test rejects densities that are a little wrong: scaled, of a slightly different roughness, tilted, without the
@@ -141,5 +182,10 @@ fn planted_errors_are_found() {
         });
     }
     find("lambert", &|_, _, wi| if wi.z > 0.0 { 0.5 / lumbre_core::math::PI } else { 0.0 });
+    find("sheen 0.3 on lambert", &|row, bsdf, wi| {
+        // As if sheen and base were chosen alike often.
+        let plain = Bsdf::new(&BsdfParams { sheen: None, ..row.params });
+        0.5 * (bsdf.pdf(wo, wi) + plain.pdf(wo, wi))
+    });
     find("plastic 0.4", &|_, _, wi| wi.z.max(0.0) / lumbre_core::math::PI);
 }

@@ -1,7 +1,7 @@
 //! White furnace of every surface model, bounded on both sides.
 
 use lumbre_core::Spectrum;
-use lumbre_core::bsdf::{Bsdf, BsdfParams, DiffuseSampling};
+use lumbre_core::bsdf::{Bsdf, BsdfParams, DiffuseSampling, GlossParams};
 use lumbre_testkit::bsdf_rows;
 use lumbre_testkit::furnace::{direction, furnace};
 
@@ -17,13 +17,32 @@ const TOLERANCE: f64 = 0.005;
 type White = (&'static str, fn(&mut BsdfParams));
 
 /// Models that keep all light.
-const WHITE: [White; 9] = [
+const WHITE: [White; 14] = [
     ("metal", |p| p.metallic = 1.0),
     ("plastic", |_| ()),
     ("plastic of high index", |p| p.ior = 2.4),
     ("plastic of total reflection", |p| p.ior = 0.0),
     ("weak interface", |p| p.specular = 0.4),
     ("lambert", |p| p.specular = 0.0),
+    ("rough diffuse", |p| {
+        p.specular = 0.0;
+        p.diffuse_roughness = 1.0;
+    }),
+    ("leaf", |p| {
+        p.specular = 0.0;
+        p.diffuse_transmission = 0.3;
+        p.diffuse_roughness = 0.4;
+    }),
+    ("leaf under an interface", |p| p.diffuse_transmission = 0.6),
+    ("wax", |p| {
+        p.diffuse_transmission = 0.6;
+        p.thin = false;
+    }),
+    ("wax from inside", |p| {
+        p.diffuse_transmission = 0.6;
+        p.thin = false;
+        p.eta = 1.0 / 1.5;
+    }),
     ("thin wall", |p| p.transmission = 1.0),
     ("half metal", |p| p.metallic = 0.5),
     ("metal, plastic and thin wall", |p| {
@@ -109,6 +128,57 @@ fn rough_boundary_keeps_what_it_says() {
     }
 }
 
+/// How much of the light Phong's lobe keeps, no base beneath: all at normal incidence, what its documentation says elsewhere, never more.
+#[test]
+fn phong_keeps_what_it_says() {
+    let kept = |exponent, fresnel, cos: f32| {
+        let gloss = Some(GlossParams { specular: Spectrum::WHITE, exponent, fresnel });
+        let bsdf = Bsdf::new(&BsdfParams { base_color: Spectrum::BLACK, gloss, ..BsdfParams::default() });
+        furnace(&bsdf, direction(cos, 0.4), 65_536).total[0]
+    };
+    for fresnel in [false, true] {
+        for n in [0.0f32, 0.2, 0.5, 0.8, 1.0, 3.0, 10.0, 50.0, 1e3, 1e5, 1e6] {
+            for cos in [1.0, 0.95, 0.8, 0.7, 0.6, 0.5, 0.3, 0.1, 0.02, 0.003] {
+                let e = kept(n, fresnel, cos);
+                assert!(e < 1.0005, "gain at {n} {cos}: {e}");
+                let least = f64::from((n + 2.0) / (2.0 * n + 2.0) / (1.0 + 0.09 * (1.0 - n).max(0.0)));
+                assert!(e > least - 2e-3, "exponent {n} at {cos}: {e} below {least}");
+            }
+            assert!(n < 1.0 || (kept(n, fresnel, 1.0) - 1.0).abs() < 1e-3);
+        }
+    }
+    assert!((kept(50.0, false, 0.5) - 0.9123).abs() < 1e-3, "the figure of its documentation");
+    assert!(kept(1e5, false, 0.1) > 0.98, "turns into a mirror");
+    assert_eq!(kept(f32::INFINITY, false, 0.01), 1.0);
+}
+
+/// Where a solid disperses, what is reflected and what refracts still make up 1, at any index of the wavelength.
+#[test]
+fn a_boundary_that_disperses_keeps_all() {
+    for (eta, eta_fresnel) in [(1.53, 1.5), (1.48, 1.5), (2.5, 2.417), (1.0, 1.02)] {
+        let params = BsdfParams {
+            transmission: 1.0,
+            thin: false,
+            roughness: 0.0,
+            eta,
+            eta_fresnel: Some(eta_fresnel),
+            ..BsdfParams::default()
+        };
+        let bsdf = Bsdf::new(&params);
+        for cos in COSINES {
+            let wo = direction(cos, 0.4);
+            let f = furnace(&bsdf, wo, DRAWS);
+            let d_line = Bsdf::new(&BsdfParams { eta: eta_fresnel, eta_fresnel: None, ..params });
+            let want = furnace(&d_line, wo, DRAWS).reflected[0];
+            assert!((f.total[0] - 1.0).abs() < 5e-4 && (f.reflected[0] - want).abs() < 1e-6, "{eta} {cos}");
+            // Rough, it loses no more than what does not disperse.
+            let rough = Bsdf::new(&BsdfParams { roughness: 0.4, ..params });
+            let kept = furnace(&rough, wo, DRAWS).total[0];
+            assert!(kept < 1.0001 && (cos < 0.1 || kept > 0.75), "{eta} {cos}: {kept}");
+        }
+    }
+}
+
 /// Lambert drawn by the cosine has no variance at all.
 #[test]
 fn lambert_weight_is_the_albedo() {
@@ -146,7 +216,7 @@ fn no_surface_gains_light() {
 /// The guide for denoisers is the hemispherical mean of the furnace for surfaces that reflect.
 #[test]
 fn albedo_is_the_mean_of_the_furnace() {
-    for row in bsdf_rows::bases().into_iter().chain(bsdf_rows::metals()) {
+    for row in [bsdf_rows::bases(), bsdf_rows::metals(), bsdf_rows::diffuse()].concat() {
         let bsdf = row.bsdf();
         let n = 24;
         let mut mean = [0.0; 3];

@@ -3,45 +3,31 @@
 use super::Finding;
 use serde_json::Value;
 
-/// A crate and the workspace crates it may use, at run time and in build scripts.
-const TABLE: &[(&str, &[&str])] = &[
-    ("lumbre-core", &[]),
-    ("lumbre-scene", &["lumbre-core"]),
-    ("lumbre-io", &["lumbre-core", "lumbre-scene"]),
-    ("lumbre-cpu", &["lumbre-core", "lumbre-scene"]),
-    ("lumbre-shaders", &["lumbre-core", "lumbre-scene"]),
-    ("lumbre-denoise", &["lumbre-core"]),
-    ("lumbre-vulkan", &["lumbre-core", "lumbre-scene", "lumbre-shaders", "lumbre-denoise"]),
-    (
-        "lumbre",
-        &[
-            "lumbre-core",
-            "lumbre-scene",
-            "lumbre-io",
-            "lumbre-cpu",
-            "lumbre-shaders",
-            "lumbre-denoise",
-            "lumbre-vulkan",
-        ],
-    ),
-    ("lumbre-viewer", &["lumbre"]),
-    ("lumbre-cli", &["lumbre", "lumbre-viewer"]),
-    (
-        "lumbre-testkit",
-        &[
-            "lumbre-core",
-            "lumbre-scene",
-            "lumbre-io",
-            "lumbre-cpu",
-            "lumbre-shaders",
-            "lumbre-denoise",
-            "lumbre-vulkan",
-            "lumbre",
-            "lumbre-viewer",
-        ],
-    ),
-    ("xtask", &[]),
+/// What the public library is made of.
+const LIBRARIES: &[&str] = &[
+    "lumbre-core",
+    "lumbre-scene",
+    "lumbre-io",
+    "lumbre-cpu",
+    "lumbre-shaders",
+    "lumbre-denoise",
+    "lumbre-vulkan",
 ];
+
+/// The workspace crates that a crate may use, at run time and in build scripts; `None`: there is no such crate.
+fn may_use(krate: &str) -> Option<Vec<&'static str>> {
+    Some(match krate {
+        "lumbre-core" | "xtask" => vec![],
+        "lumbre-scene" | "lumbre-denoise" => vec!["lumbre-core"],
+        "lumbre-io" | "lumbre-cpu" | "lumbre-shaders" => vec!["lumbre-core", "lumbre-scene"],
+        "lumbre-vulkan" => vec!["lumbre-core", "lumbre-scene", "lumbre-shaders", "lumbre-denoise"],
+        "lumbre" => LIBRARIES.to_vec(),
+        "lumbre-viewer" => vec!["lumbre"],
+        "lumbre-cli" => vec!["lumbre", "lumbre-viewer"],
+        TESTKIT => [LIBRARIES, &["lumbre", "lumbre-viewer"]].concat(),
+        _ => return None,
+    })
+}
 
 /// Any crate may use this one in its tests.
 const TESTKIT: &str = "lumbre-testkit";
@@ -58,7 +44,7 @@ pub(super) fn check(metadata: &Value) -> Vec<Finding> {
 fn check_package(package: &Value) -> Vec<Finding> {
     let name = package["name"].as_str().unwrap_or_default();
     let finding = |message| Finding { path: format!("{name}/Cargo.toml"), line: 0, message };
-    let Some((_, may_use)) = TABLE.iter().find(|(krate, _)| *krate == name) else {
+    let Some(may_use) = may_use(name) else {
         return vec![finding("not in the table of crates (xtask/src/lint/dependencies.rs)".to_owned())];
     };
     let dependencies = package["dependencies"].as_array().map(Vec::as_slice).unwrap_or_default();

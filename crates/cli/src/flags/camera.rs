@@ -23,7 +23,7 @@ pub(crate) struct CameraArgs {
     #[arg(long, value_name = "X,Y,Z", value_parser = vec3, allow_hyphen_values = true)]
     pub(crate) look_at: Option<Vec3>,
 
-    /// Vertical field of view, degrees.
+    /// Vertical field of view, degrees. An orthographic camera becomes a perspective one.
     #[arg(long, value_name = "DEG", value_parser = fov, allow_hyphen_values = true)]
     pub(crate) fov: Option<f32>,
 }

@@ -3,13 +3,21 @@
 use super::values::{bytes, count};
 use clap::Args;
 use lumbre::LoadOptions;
-use lumbre::io::{Bound, Limits};
+use lumbre::io::{Bound, Limits, SceneChoice};
 use std::path::PathBuf;
 
 /// How to read the scene.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Scene")]
 pub(crate) struct LoadingArgs {
+    /// Which of the file's scenes: its name, or its number from 0. [default: the one that the file names, else the first]
+    #[arg(long = "scene", value_name = "NAME|INDEX", value_parser = which_scene)]
+    pub(crate) which_scene: Option<SceneChoice>,
+
+    /// Which of the file's sets of materials, by name. [default: the materials that stand without one]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) variant: Option<String>,
+
     /// Folder from which textures and other files that the scene names may be read too. May be given several times.
     #[arg(long, value_name = "DIR")]
     pub(crate) asset_dir: Vec<PathBuf>,
@@ -22,7 +30,26 @@ pub(crate) struct LoadingArgs {
 impl LoadingArgs {
     /// The same in the library's terms.
     pub(crate) fn options(&self) -> LoadOptions {
-        LoadOptions { limits: self.limits.limits(), asset_dirs: self.asset_dir.clone() }
+        let (scene, variant) = (self.which_scene.clone().unwrap_or_default(), self.variant.clone());
+        LoadOptions { limits: self.limits.limits(), asset_dirs: self.asset_dir.clone(), scene, variant }
+    }
+
+    /// Names and values of the flags that choose what is seen, for the metadata of a file.
+    pub(crate) fn described(&self) -> Vec<(&'static str, String)> {
+        let scene = self.which_scene.as_ref().and_then(|s| match s {
+            SceneChoice::Default => None,
+            SceneChoice::Index(i) => Some(i.to_string()),
+            SceneChoice::Name(name) => Some(name.clone()),
+        });
+        let all = [("whichScene", scene), ("variant", self.variant.clone())];
+        all.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
+    }
+}
+
+fn which_scene(text: &str) -> Result<SceneChoice, String> {
+    match text {
+        "" => Err("expected a name or a number".into()),
+        _ => Ok(text.parse().map_or_else(|_| SceneChoice::Name(text.into()), SceneChoice::Index)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod camera;
 pub(crate) mod compare;
+pub(crate) mod info;
 pub(crate) mod light;
 pub(crate) mod loading;
 pub(crate) mod output;
@@ -26,6 +27,7 @@ const EXAMPLES: &str = "\
 Examples:
   lumbre render scene.glb -o picture.png
   lumbre render scene.gltf -o picture.exr --spp 256 --sky gradient --sun 50,120
+  lumbre info scene.glb
   lumbre compare reference.exr picture.exr
 
 `lumbre COMMAND --help` says more.";
@@ -36,6 +38,9 @@ pub(crate) enum Command {
     /// Render a scene to a picture.
     #[command(after_help = render::EXAMPLES)]
     Render(Box<render::RenderArgs>),
+    /// Say what a scene holds, what it takes, and why its picture might be black.
+    #[command(after_help = info::EXAMPLES)]
+    Info(Box<info::InfoArgs>),
     /// Measure how much a picture differs from a reference.
     #[command(after_help = compare::EXAMPLES)]
     Compare(compare::CompareArgs),

@@ -93,6 +93,7 @@ impl Job<'_> {
             ));
         }
         let saturated = report::film(&film);
+        report::black(&film, &self.args.scene);
         let start = Instant::now();
         let interrupted_after = interrupted.then_some(done.samples);
         let metadata = outputs::metadata(self.args, self.sky_added, interrupted_after);

@@ -111,6 +111,7 @@ pub(super) fn metadata(
 ) -> Vec<(String, String)> {
     let mut all = vec![("version", env!("CARGO_PKG_VERSION").into()), ("scene", file_name(&args.scene))];
     all.extend(args.sampling.described());
+    all.extend(args.loading.described());
     all.extend(args.camera.described());
     all.extend(args.light.described());
     if sky_added {

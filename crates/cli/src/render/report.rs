@@ -4,6 +4,7 @@ use crate::console;
 use lumbre::core::Film;
 use std::env;
 use std::ffi::OsString;
+use std::path::Path;
 
 /// Most samples that are named.
 const NAMED: usize = 3;
@@ -29,6 +30,14 @@ pub(super) fn film(film: &Film) -> u64 {
         ));
     }
     saturated
+}
+
+/// Says where to look for reasons if the picture is black all over.
+pub(super) fn black(film: &Film, scene: &Path) {
+    if lumbre::output::is_black(film) {
+        let scene = quoted(&scene.to_string_lossy());
+        console::note(format_args!("the picture is black all over; `lumbre info {scene}` looks for reasons"));
+    }
 }
 
 /// The command line without its outputs, quoted for a shell.

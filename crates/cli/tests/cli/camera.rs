@@ -60,3 +60,44 @@ fn a_scene_without_camera_is_put_in_view() {
     assert!(seen > 60 && seen < 32 * 18, "{seen} pixels show the square");
     assert!(!depth[0].is_finite() && !depth[32 * 18 - 1].is_finite(), "all of it is in view");
 }
+
+/// A lamp of 2 m by 2 m at the origin that faces up, under an orthographic camera that sees `wide` by `high` metres.
+fn under_parallel_rays(dir: &std::path::Path, wide: f32, high: f32) -> String {
+    let lamp = r#"{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]}}"#;
+    let path = scene(dir, &[(square(0.0, 1.0), lamp)]);
+    let mut doc: serde_json::Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    doc["cameras"] = serde_json::json!([{"type": "orthographic", "name": "flat",
+        "orthographic": {"xmag": 0.5 * wide, "ymag": 0.5 * high, "znear": 1, "zfar": 2}}]);
+    doc["nodes"] = serde_json::json!([{"mesh": 0},
+        {"camera": 0, "translation": [0, 7, 0], "rotation": [-half, 0, 0, half], "scale": [3, 3, 3]}]);
+    doc["scenes"] = serde_json::json!([{"nodes": [0, 1]}]);
+    std::fs::write(&path, doc.to_string()).unwrap();
+    path
+}
+
+#[test]
+fn orthographic_cameras_show_what_their_magnification_says() {
+    let dir = folder();
+    let path = under_parallel_rays(dir.path(), 8.0, 4.0);
+    // The lamp covers the eighth part of the view, whatever its distance.
+    for more in ["", "--look-from 0,100,0 --look-at 0,0,0 --camera flat"] {
+        let image = picture(dir.path(), &format!("{path} --size 32x16 --spp 1 --filter box {more}"));
+        assert_eq!(mean(&image).g, 0.125, "{more}");
+        let lit = |x: usize, y: usize| image.pixels[32 * y + x].g > 0.0;
+        assert!(lit(12, 4) && lit(19, 11) && !lit(11, 8) && !lit(20, 8) && !lit(16, 3) && !lit(16, 12));
+    }
+    // A wider picture keeps the height, a higher one the width.
+    assert_eq!(mean(&picture(dir.path(), &format!("{path} --size 64x16 --spp 1 --filter box"))).g, 0.0625);
+    assert_eq!(mean(&picture(dir.path(), &format!("{path} --size 32x32 --spp 1 --filter box"))).g, 0.0625);
+    // Without a size the picture has the camera's shape.
+    lumbre(&format!("render {path} --pixel 0,0")).exits(0).says("1440x720");
+    let (a, b) = (
+        ray(&format!("{path} --size 32x16 --pixel 0,0")),
+        ray(&format!("{path} --size 32x16 --pixel 31,15")),
+    );
+    assert!(close(a.1, [0.0, -1.0, 0.0]) && close(b.1, a.1), "rays are parallel");
+    assert!((b.0[0] - a.0[0] - 8.0).abs() < 0.8 && (b.0[2] - a.0[2] - 4.0).abs() < 0.8 && a.0[1] == 7.0);
+    let (_, perspective) = ray(&format!("{path} --size 32x16 --pixel 0,0 --fov 40"));
+    assert!(!close(perspective, a.1));
+}

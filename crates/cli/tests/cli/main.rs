@@ -6,6 +6,7 @@ mod common;
 mod compare;
 mod interrupt;
 mod light;
+mod loading;
 mod picture;
 mod replay;
 mod running;

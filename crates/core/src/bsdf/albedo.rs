@@ -33,7 +33,11 @@ pub fn alpha_of_row(k: f64) -> f64 {
 
 /// Cosine of column `j` in a row with warp `w`, for the quadrature.
 pub fn mu_of_column(j: usize, w: f64) -> f64 {
-    let x = j as f64 / (N_MU - 1) as f64;
+    cosine_at(j as f64 / (N_MU - 1) as f64, w)
+}
+
+/// Cosine at a position in [0, 1] along columns with warp `w`.
+pub fn cosine_at(x: f64, w: f64) -> f64 {
     let x = x * x;
     w * x / (1.0 + w - x)
 }
@@ -93,14 +97,14 @@ impl AlbedoRow {
     /// 1 - E at `mu` in [0, 1].
     #[inline]
     pub fn deficit(&self, mu: f32) -> f32 {
-        self.lookup(&DEFICIT, column(mu, self.alpha))
+        self.lookup(&DEFICIT, column(mu, self.alpha, N_MU))
     }
 
     /// Both at `mu` in [0, 1].
     #[inline]
     pub fn directional(&self, mu: f32) -> Directional {
         let deficit = self.deficit(mu);
-        let excess = self.lookup(&SCHLICK_EXCESS, column(mu, self.roughness));
+        let excess = self.lookup(&SCHLICK_EXCESS, column(mu, self.roughness, N_MU));
         Directional { deficit, schlick: (1.0 - deficit) * (schlick_weight(mu) + excess).max(0.0) }
     }
 
@@ -124,11 +128,11 @@ impl AlbedoRow {
     }
 }
 
-/// Column and fraction of a cosine in a table with warp `w`.
+/// Column and fraction of a cosine among `n` with warp `w`.
 #[inline]
-fn column(mu: f32, w: f32) -> (usize, f32) {
+pub(super) fn column(mu: f32, w: f32, n: usize) -> (usize, f32) {
     let s = (mu * (1.0 + w) / (mu + w)).sqrt();
-    let p = (s * (N_MU - 1) as f32).clamp(0.0, (N_MU - 1) as f32);
-    let j = (p as usize).min(N_MU - 2);
+    let p = (s * (n - 1) as f32).clamp(0.0, (n - 1) as f32);
+    let j = (p as usize).min(n - 2);
     (j, p - j as f32)
 }

@@ -1,23 +1,26 @@
-//! The surface as integrators see it: a mixture of metal, opaque dielectric and transmissive dielectric with fixed weights
+//! What lies beneath the layers of [`super::layered`]: a mixture of metal, opaque dielectric and transmissive dielectric with fixed weights
 //! (glTF 2.0 appendix B, KHR_materials_transmission, _volume, _ior, _specular).
 //!
 //! weight = metallic; (1 - metallic)(1 - transmission); (1 - metallic) transmission. One component is chosen, by its weight times an
 //! estimate of its albedo; its smooth lobes are then weighted with the density of all components (one-sample model, Veach 1997, 9.2.4).
-//! Room is left for layers over the mixture (coat, sheen) and for anisotropy in [`crate::microfacet::Ggx`].
 
 use super::compensation::Rough;
 use super::dielectric::Dielectric;
 use super::dielectric_base::DielectricBase;
+use super::diffuse::Diffuse;
+use super::interface::Interface;
 use super::lambert::DiffuseSampling;
 use super::metal::Metal;
+use super::phong::Phong;
 use super::thin::Thin;
-use super::{BsdfParams, BsdfSample, TransportMode};
+use super::thin_film::ThinFilm;
+use super::{BsdfParams, BsdfSample, GlossParams, TransportMode, unit_interval};
 use crate::fresnel::f0_from_ior;
 use crate::math::{ONE_MINUS_EPSILON, Vec3};
 use crate::rgb::Spectrum;
 
 /// Rays closer to the surface than this cosine do not scatter: half vectors would lose all digits.
-const MIN_COS: f32 = 1e-6;
+pub(super) const MIN_COS: f32 = 1e-6;
 
 /// Added to each component's albedo when choosing, so that none with weight is ever out of reach.
 const ALBEDO_FLOOR: f32 = 0.05;
@@ -27,6 +30,7 @@ const ALBEDO_FLOOR: f32 = 0.05;
 enum Model {
     Metal(Metal),
     Base(DielectricBase),
+    Gloss(Phong),
     Solid(Dielectric),
     Thin(Thin),
 }
@@ -36,7 +40,8 @@ impl Model {
     fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
         match self {
             Model::Metal(m) => m.eval_pdf(wo, wi),
-            Model::Base(m) => m.eval_pdf(wo, wi),
+            Model::Base(m) => m.eval_pdf(wo, wi, mode),
+            Model::Gloss(m) => m.eval_pdf(wo, wi, mode),
             Model::Solid(m) => m.eval_pdf(wo, wi, mode),
             Model::Thin(m) => m.eval_pdf(wo, wi),
         }
@@ -46,7 +51,8 @@ impl Model {
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2], mode: TransportMode) -> Option<BsdfSample> {
         match self {
             Model::Metal(m) => m.sample(wo, u_lobe, u),
-            Model::Base(m) => m.sample(wo, u_lobe, u),
+            Model::Base(m) => m.sample(wo, u_lobe, u, mode),
+            Model::Gloss(m) => m.sample(wo, u_lobe, u, mode),
             Model::Solid(m) => m.sample(wo, u_lobe, u, mode),
             Model::Thin(m) => m.sample(wo, u_lobe, u),
         }
@@ -57,6 +63,7 @@ impl Model {
         match self {
             Model::Metal(m) => m.is_smooth_lobe(),
             Model::Base(m) => m.is_smooth_lobe(),
+            Model::Gloss(m) => m.is_smooth_lobe(),
             Model::Solid(m) => m.is_smooth_lobe(),
             Model::Thin(m) => m.is_smooth_lobe(),
         }
@@ -67,6 +74,7 @@ impl Model {
         match self {
             Model::Metal(m) => m.albedo(),
             Model::Base(m) => m.albedo(),
+            Model::Gloss(m) => m.albedo(),
             Model::Solid(m) => m.albedo(),
             Model::Thin(m) => m.albedo(),
         }
@@ -82,36 +90,36 @@ struct Component {
     prob: f32,
 }
 
-/// Scattering at one point: a mixture of at most three models. No allocation; made anew at each hit.
+/// A mixture of at most three models.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bsdf {
+pub struct Mixture {
     first: Component,
     others: [Option<Component>; 2],
 }
 
-impl Bsdf {
+impl Mixture {
     /// The surface with the given parameters.
     #[inline]
     pub fn new(params: &BsdfParams) -> Self {
         let base_color = params.base_color.map(unit_interval);
         let (metallic, transmission) = (unit_interval(params.metallic), unit_interval(params.transmission));
         let weights = [metallic, (1.0 - metallic) * (1.0 - transmission), (1.0 - metallic) * transmission];
-        if weights[1] == 1.0 && params.specular <= 0.0 {
-            return Bsdf::lambert(base_color, params.diffuse_sampling);
+        if weights[1] == 1.0 && params.is_plain_lambert() {
+            return Mixture::lambert(base_color, params.diffuse_sampling);
         }
-        let rough = Rough::new(params.roughness);
+        let rough = Rough::new(params.roughness, params.anisotropy);
         // Most surfaces are of one kind.
         for (weight, term) in weights.into_iter().zip(TERMS) {
             if weight == 1.0 {
-                return Bsdf::single(term(params, base_color, rough));
+                return Mixture::single(term(params, base_color, rough));
             }
         }
-        Bsdf::mixed(params, weights, base_color, rough)
+        Mixture::mixed(params, weights, base_color, rough)
     }
 
     #[inline]
     fn single(model: Model) -> Self {
-        Bsdf { first: Component { model, weight: 1.0, prob: 1.0 }, others: [None; 2] }
+        Mixture { first: Component { model, weight: 1.0, prob: 1.0 }, others: [None; 2] }
     }
 
     /// Two or three terms.
@@ -123,7 +131,7 @@ impl Bsdf {
             });
         // The weights sum to 1, so at least one term exists.
         let first = terms.next().expect("weights sum to 1");
-        let mut bsdf = Bsdf { first, others: [terms.next(), terms.next()] };
+        let mut bsdf = Mixture { first, others: [terms.next(), terms.next()] };
         let sum: f32 = bsdf.components().map(|c| c.prob).sum();
         bsdf.first.prob /= sum;
         for c in bsdf.others.iter_mut().flatten() {
@@ -135,8 +143,7 @@ impl Bsdf {
     /// A Lambert surface; `albedo` in [0, 1].
     #[inline]
     pub fn lambert(albedo: Spectrum, sampling: DiffuseSampling) -> Self {
-        let base = DielectricBase::new(albedo, Spectrum::BLACK, 0.0, None, sampling);
-        Bsdf::single(Model::Base(base))
+        Mixture::single(Model::Base(DielectricBase::lambert(albedo, sampling)))
     }
 
     #[inline]
@@ -162,18 +169,6 @@ impl Bsdf {
             let (f_c, pdf_c) = c.model.eval_pdf(wo, wi, mode);
             (f + f_c * c.weight, pdf + pdf_c * c.prob)
         })
-    }
-
-    /// f · |cos θi|, smooth lobes only.
-    #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Spectrum {
-        self.eval_pdf(wo, wi, mode).0
-    }
-
-    /// Density of `sample`, sr⁻¹, smooth lobes only. It integrates to 1 less the probabilities of delta lobes and of samples that end.
-    #[inline]
-    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.eval_pdf(wo, wi, TransportMode::Radiance).1
     }
 
     /// Draws a direction. `None` when the path ends here: the light of that sample is 0.
@@ -255,29 +250,46 @@ type Term = fn(&BsdfParams, Spectrum, Option<Rough>) -> Model;
 const TERMS: [Term; 3] = [metal, base, transmissive];
 
 #[inline]
-fn metal(_: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
-    Model::Metal(Metal::new(base_color, rough))
+fn metal(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
+    Model::Metal(Metal::new(base_color, film(params, base_color), rough))
 }
 
 #[inline]
 fn base(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
+    let diffuse = Diffuse::new(params, base_color);
+    if let Some(gloss) = &params.gloss {
+        return phong(diffuse, gloss);
+    }
     let specular = unit_interval(params.specular);
     let normal = f0_from_ior(params.ior);
-    let f0 = params.specular_color.map(|c| unit_interval(normal * c) * specular);
-    Model::Base(DielectricBase::new(base_color, f0, specular, rough, params.diffuse_sampling))
+    let f0 = params.specular_color.map(|c| unit_interval(normal * c));
+    let interface = Interface::new(f0, specular, film(params, f0), rough);
+    Model::Base(DielectricBase::new(diffuse, interface))
+}
+
+#[cold]
+fn phong(diffuse: Diffuse, gloss: &GlossParams) -> Model {
+    Model::Gloss(Phong::new(diffuse, gloss))
 }
 
 #[inline]
 fn transmissive(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
     if params.thin {
-        Model::Thin(Thin::new(params.ior, base_color, rough))
+        Model::Thin(Thin::new(
+            params.ior,
+            film(params, Spectrum::splat(f0_from_ior(params.ior))),
+            base_color,
+            rough,
+        ))
     } else {
-        Model::Solid(Dielectric::new(params.eta, base_color, rough))
+        let eta_fresnel = params.eta_fresnel.unwrap_or(params.eta);
+        let film = film(params, Spectrum::splat(f0_from_ior(eta_fresnel)));
+        Model::Solid(Dielectric::new(params.eta, params.eta_fresnel, film, base_color, rough))
     }
 }
 
-/// Clamps to [0, 1]; NaN becomes 0.
+/// The film over an interface that reflects `f0` at normal incidence.
 #[inline]
-fn unit_interval(x: f32) -> f32 {
-    if x > 0.0 { x.min(1.0) } else { 0.0 }
+fn film(params: &BsdfParams, f0: Spectrum) -> Option<ThinFilm> {
+    params.film.as_ref().and_then(|film| ThinFilm::new(film, f0))
 }

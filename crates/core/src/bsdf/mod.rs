@@ -2,29 +2,46 @@
 //!
 //! `wo` points to the camera side, `wi` is the sampled side. Both are unit and point away from the surface. The side the ray came
 //! from is always +z: callers turn the frame. [`Bsdf`] is the closed form integrators use: the weighted mixture of glTF's
-//! metallic-roughness model with transmission.
+//! metallic-roughness model with transmission, under layers of sheen and varnish.
 //!
 //! | model | file | choice of direction |
 //! |---|---|---|
 //! | diffuse | [`lambert`] | cosine |
+//! | rough diffuse | [`oren_nayar`] | cosine about the normal and towards the viewer |
+//! | diffuse base, both sides | [`diffuse`] | those two, and the cosine on the other side |
+//! | gloss of MTL | [`phong`] | power of the cosine about the mirror direction + the base's |
 //! | metal | [`metal`] | visible normals + compensation |
 //! | opaque dielectric | [`dielectric_base`] | visible normals + cosine |
 //! | boundary of a solid | [`dielectric`] | visible normals, Fresnel |
 //! | thin wall | [`thin`] | visible normals + compensation, Fresnel |
+//! | sheen | [`sheen`] | fitted heights and azimuths |
+//! | coat | [`coat`] | visible normals |
 
 pub mod albedo;
 mod albedo_data;
+pub mod aniso_albedo;
+mod aniso_albedo_deficit;
+mod aniso_albedo_schlick;
+pub mod coat;
 pub mod compensation;
 pub mod dielectric;
 pub mod dielectric_base;
+pub mod diffuse;
+mod interface;
 pub mod lambert;
+mod layered;
 pub mod metal;
-mod mixture;
+pub mod mixture;
+pub mod oren_nayar;
 mod params;
+pub mod phong;
+pub mod sheen;
+mod sheen_data;
 pub mod thin;
+pub mod thin_film;
 
 pub use lambert::DiffuseSampling;
-pub use mixture::Bsdf;
+pub use layered::Bsdf;
 pub use params::{BsdfParams, CoatParams, FilmParams, GlossParams, SheenParams};
 
 use crate::math::Vec3;
@@ -44,6 +61,8 @@ pub enum TransportMode {
 pub enum Lobe {
     /// Reflection spread over the hemisphere.
     DiffuseReflection,
+    /// Diffuse light that leaves on the other side.
+    DiffuseTransmission,
     /// Reflection by a rough interface.
     GlossyReflection,
     /// Perfect mirror direction.
@@ -65,8 +84,20 @@ impl Lobe {
     /// True when `wi` leaves on the other side of the surface.
     #[inline]
     pub fn is_transmission(self) -> bool {
-        matches!(self, Lobe::GlossyTransmission | Lobe::SpecularTransmission | Lobe::ThinTransmission)
+        matches!(
+            self,
+            Lobe::DiffuseTransmission
+                | Lobe::GlossyTransmission
+                | Lobe::SpecularTransmission
+                | Lobe::ThinTransmission
+        )
     }
+}
+
+/// Clamps to [0, 1]; NaN becomes 0.
+#[inline]
+fn unit_interval(x: f32) -> f32 {
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
 
 /// A direction drawn by [`Bsdf::sample`].

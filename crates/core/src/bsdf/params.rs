@@ -25,6 +25,11 @@ pub struct BsdfParams {
     pub thin: bool,
     /// For solids: index on the far side over index on the side of the ray.
     pub eta: f32,
+    /// For solids: the ray comes from inside. Sheen and coat lie on the outside.
+    pub inside: bool,
+    /// For solids that disperse: the index ratio by which Fresnel's law shares the light out, where that is not `eta`. Both are at
+    /// least 1 then.
+    pub eta_fresnel: Option<f32>,
     /// How diffuse directions are drawn.
     pub diffuse_sampling: DiffuseSampling,
     /// Roughness of the diffuse base; 0 is Lambert.
@@ -87,6 +92,17 @@ pub struct CoatParams {
     pub normal: Vec3,
 }
 
+impl BsdfParams {
+    /// True when the opaque base is Lambert's with nothing over it.
+    #[inline]
+    pub(super) fn is_plain_lambert(&self) -> bool {
+        self.specular <= 0.0
+            && self.diffuse_roughness <= 0.0
+            && self.diffuse_transmission <= 0.0
+            && self.gloss.is_none()
+    }
+}
+
 impl Default for BsdfParams {
     /// A rough white dielectric with index 1.5, opaque.
     fn default() -> Self {
@@ -100,6 +116,8 @@ impl Default for BsdfParams {
             transmission: 0.0,
             thin: true,
             eta: 1.5,
+            inside: false,
+            eta_fresnel: None,
             diffuse_sampling: DiffuseSampling::Cosine,
             diffuse_roughness: 0.0,
             diffuse_transmission: 0.0,

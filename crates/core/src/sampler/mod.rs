@@ -115,6 +115,14 @@ impl Sampler {
         hash_combine(self.key, self.index ^ 0x5bd1_e995)
     }
 
+    /// Stream `which` of the `part`-th of `parts` draws that this sample takes apart from the table, for what needs many numbers at one vertex.
+    /// Where `parts` is a power of two, those of one sample are stratified among themselves.
+    #[inline]
+    pub fn split(&self, which: u32, parts: u32, part: u32) -> Self {
+        let key = hash_combine(self.key, hash_u32(which ^ 0x9e37_79b9));
+        Sampler { key, index: self.index.wrapping_mul(parts).wrapping_add(part), ..*self }
+    }
+
     /// One set of the table.
     #[inline]
     pub fn set(&self, set: u32) -> Set {

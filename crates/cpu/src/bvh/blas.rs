@@ -129,11 +129,7 @@ impl Blas {
         for packet in &self.packets {
             triangle::filter(packet, ray, f32::INFINITY, &mut sheared);
             for lane in 0..LANES {
-                if let Some(hit) = triangle::finish(&sheared, lane)
-                    && hit.t > ray.t_min
-                    && hit.t <= *t_best
-                    && query.offer(Hit::new(instance, packet.ids[lane], hit), opaque, t_best)
-                {
+                if offer((packet, &sheared, lane), ray.t_min, t_best, (instance, opaque), query) {
                     return true;
                 }
             }
@@ -171,11 +167,8 @@ impl<S: Simd, Q: Query> Leaf for TriangleLeaf<'_, S, Q> {
             while mask != 0 {
                 let lane = mask.trailing_zeros() as usize & (LANES - 1);
                 mask &= mask - 1;
-                if let Some(hit) = triangle::finish(&sheared, lane)
-                    && hit.t > self.t_min
-                    && hit.t <= *t_best
-                    && self.query.offer(Hit::new(self.instance, packet.ids[lane], hit), self.opaque, t_best)
-                {
+                let of = (self.instance, self.opaque);
+                if offer((packet, &sheared, lane), self.t_min, t_best, of, self.query) {
                     self.ended = true;
                     return true;
                 }
@@ -183,6 +176,22 @@ impl<S: Simd, Q: Query> Leaf for TriangleLeaf<'_, S, Q> {
         }
         false
     }
+}
+
+/// Offers `query` the triangle in a lane if the ray hits it with `t_min < t <= t_best`; true when it has enough.
+#[inline(always)]
+fn offer<Q: Query>(
+    (packet, sheared, lane): (&Packet, &Sheared, usize),
+    t_min: f32,
+    t_best: &mut f32,
+    (instance, opaque): (u32, bool),
+    query: &mut Q,
+) -> bool {
+    triangle::finish(sheared, lane).is_some_and(|hit| {
+        hit.t > t_min
+            && hit.t <= *t_best
+            && query.offer(Hit::new(instance, packet.ids[lane], hit), opaque, t_best)
+    })
 }
 
 fn can_be_hit([a, b, c]: [Vec3; 3]) -> bool {

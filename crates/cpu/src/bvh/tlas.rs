@@ -92,6 +92,11 @@ impl Tlas {
         self.root.map(|_| (self.bounds.lo.truncate(), self.bounds.hi.truncate()))
     }
 
+    /// Memory held, in bytes, without that of the meshes, which other trees may share.
+    pub fn memory(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.instances[..])
+    }
+
     /// The meshes.
     pub fn blas(&self) -> &[Arc<Blas>] {
         &self.blas

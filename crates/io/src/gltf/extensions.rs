@@ -40,6 +40,7 @@ const fn not_needed(name: &'static str, brings: &'static str) -> GltfExtension {
 
 /// All that this loader knows, by name. Every other extension is an error where a scene requires it, a warning elsewhere.
 pub const GLTF_EXTENSIONS: &[GltfExtension] = &[
+    full("EXT_mesh_gpu_instancing", "many copies of a mesh"),
     full("EXT_meshopt_compression", "compressed buffers"),
     full("EXT_texture_webp", "WebP textures"),
     full("KHR_draco_mesh_compression", "compressed meshes"),
@@ -56,6 +57,7 @@ pub const GLTF_EXTENSIONS: &[GltfExtension] = &[
     full("KHR_materials_specular", "strength and colour of a dielectric's reflection"),
     full("KHR_materials_transmission", "glass"),
     full("KHR_materials_unlit", "colours without light"),
+    full("KHR_materials_variants", "sets of materials to choose from"),
     without(
         "KHR_materials_volume",
         "the inside of glass",
@@ -65,6 +67,7 @@ pub const GLTF_EXTENSIONS: &[GltfExtension] = &[
     full("KHR_meshopt_compression", "compressed buffers"),
     full("KHR_texture_basisu", "KTX2 textures"),
     full("KHR_texture_transform", "moved, turned and scaled textures"),
+    not_needed("KHR_xmp", "metadata"),
     not_needed("KHR_xmp_json_ld", "metadata"),
 ];
 

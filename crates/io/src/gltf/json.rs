@@ -78,6 +78,14 @@ impl<'a> Object<'a> {
         index.map(|v| Some(v as usize)).ok_or_else(|| child.wrong("a small whole number"))
     }
 
+    /// The indices in the list under `key`; none if it is absent.
+    pub(super) fn indices(&self, key: &str) -> Result<Vec<usize>, IoError> {
+        let Some(child) = self.child(key) else { return Ok(Vec::new()) };
+        let index = |v: &Value| v.as_u64().and_then(|v| u32::try_from(v).ok()).map(|v| v as usize);
+        let list = child.value.as_array().and_then(|l| l.iter().map(index).collect());
+        list.ok_or_else(|| child.wrong("a list of small whole numbers"))
+    }
+
     /// The finite number under `key`, or the default.
     pub(super) fn number(&self, key: &str, default: f32) -> Result<f32, IoError> {
         self.child(key).map_or(Ok(default), |c| c.finite())

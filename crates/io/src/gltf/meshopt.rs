@@ -48,7 +48,7 @@ enum Filter {
     Color,
 }
 
-/// The decoded bytes of every compressed view, by its index; within what is left of the room for buffers.
+/// The decoded bytes of every compressed view, by its index; within `room`.
 pub(super) fn decode_all(
     doc: &Document,
     buffers: &[impl AsRef<[u8]>],
@@ -138,5 +138,68 @@ impl<'a> Job<'a> {
         };
         filter(&mut bytes, count, stride, workspace).map_err(damaged)?;
         Ok(bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Limits;
+    use base64::Engine;
+    use gltf::json::serialize;
+    use serde_json::json;
+    use std::path::Path;
+
+    fn bytes(base64: &serde_json::Value) -> Vec<u8> {
+        base64::engine::general_purpose::STANDARD.decode(base64.as_str().unwrap()).unwrap()
+    }
+
+    fn decode(case: &serde_json::Value, stream: &[u8]) -> Result<Vec<u8>, IoError> {
+        let extension = json!({"buffer": 0, "byteLength": stream.len(), "byteStride": case["stride"],
+            "mode": case["mode"], "filter": case["filter"], "count": case["count"]});
+        let text = serialize::to_vec(&json!({"asset": {"version": "2.0"}, "bufferViews": [
+            {"buffer": 1, "byteLength": 1, "extensions": {"EXT_meshopt_compression": extension}}]}));
+        let limits = Limits::default();
+        let doc = Document::parse(Path::new("a.gltf"), &text.unwrap(), &limits).unwrap();
+        let mut decoded = decode_all(&doc, &[stream], Room::from(1 << 20))?;
+        assert_eq!(decoded.len(), 1);
+        Ok(decoded.remove(&0).unwrap())
+    }
+
+    fn cases() -> Vec<serde_json::Value> {
+        serde_json::from_str(include_str!("../../tests/data/meshopt.json")).unwrap()
+    }
+
+    /// Streams of meshoptimizer's own encoder, and what its own decoder makes of them. That one runs on vector units, which
+    /// round halves to even, so that filters may differ by one unit.
+    #[test]
+    fn streams_hold_what_their_own_decoder_says() {
+        for case in cases() {
+            let have =
+                decode(&case, &bytes(&case["stream"])).unwrap_or_else(|e| panic!("{}: {e}", case["name"]));
+            let want = bytes(&case["decoded"]);
+            assert_eq!(have.len(), want.len(), "{}", case["name"]);
+            let shorts = case["stride"] == 8;
+            let numbers = |b: &[u8]| -> Vec<i32> {
+                match shorts {
+                    true => b.chunks_exact(2).map(|c| i16::from_le_bytes([c[0], c[1]]).into()).collect(),
+                    false => b.iter().map(|&v| i32::from(v as i8)).collect(),
+                }
+            };
+            let slack = i32::from(!matches!(case["filter"].as_str().unwrap(), "NONE" | "EXPONENTIAL"));
+            for (i, (h, w)) in numbers(&have).into_iter().zip(numbers(&want)).enumerate() {
+                assert!((h - w).abs() <= slack, "{}: number {i} is {h}, not {w}", case["name"]);
+            }
+        }
+    }
+
+    #[test]
+    fn every_truncation_is_an_error() {
+        for case in cases() {
+            let stream = bytes(&case["stream"]);
+            for n in 0..stream.len() {
+                assert!(decode(&case, &stream[..n]).is_err(), "{}: {n} bytes are enough", case["name"]);
+            }
+        }
     }
 }

@@ -1,25 +1,32 @@
 //! glTF 2.0 (Khronos Group 2021) to [`Scene`]. The `gltf` crate gives the JSON types only; its validator and importer are
 //! not used, because they panic on some wrong indices and follow paths out of the scene's folder.
 //!
-//! Extensions are read from the raw JSON (`json.rs`), all in the same way; `extensions.rs` lists them. Left out: skins,
-//! morph targets and animations (rest pose, with a warning), orthographic cameras, points and lines.
+//! Extensions are read from the raw JSON (`json.rs`), all in the same way; `extensions.rs` lists them. Left out: skins
+//! and animations (rest pose, with a warning), points and lines.
 
 mod accessor;
 mod buffers;
+mod cameras;
 mod container;
+mod describe;
 mod document;
 mod draco;
 mod extensions;
 mod images;
+mod instancing;
 mod json;
 mod lights;
 mod material;
 mod mesh;
 mod meshopt;
+mod morph;
 mod nodes;
 mod prescan;
 mod primitive;
 mod textures;
+mod variants;
+
+pub(crate) use describe::describe;
 
 use crate::resolver::Resolver;
 use crate::warnings::Warnings;
@@ -51,8 +58,11 @@ fn load(
     options: &LoadOptions,
     mut warnings: Warnings,
 ) -> Result<Loaded, IoError> {
-    let doc = Document::parse(path, json, &options.limits)?;
+    let mut doc = Document::parse(path, json, &options.limits)?;
     extensions::check(&doc, &mut warnings)?;
+    if let Some(variant) = &options.variant {
+        variants::choose(&mut doc, variant)?;
+    }
     doc.warn_of_motion(&mut warnings);
     let resolver = Resolver::new(path, options)?;
     let buffers = Buffers::load(&doc, &resolver, bin)?;
@@ -61,13 +71,15 @@ fn load(
     let mut table = TextureTable::default();
     let materials = material::load_all(&doc, &mut table, &mut warnings)?;
     let lights = lights::load_all(&doc, &mut warnings)?;
-    let graph = nodes::load(&doc, lights.len(), &mut warnings)?;
+    let mut graph = nodes::load(&doc, lights.len(), &options.scene, &mut warnings)?;
+    let shapes = morph::shapes(&doc, &mut graph.nodes);
+    let accessors = Accessors { doc: &doc, buffers: &buffers };
+    instancing::expand(&accessors, &mut graph.nodes, &mut warnings)?;
 
     // Then what is large, on all cores.
-    let accessors = Accessors { doc: &doc, buffers: &buffers };
     let (images, meshes) = rayon::join(
         || images::load_all(&doc, &buffers, &resolver, table.images()),
-        || mesh::load_all(&accessors),
+        || mesh::load_all(&accessors, &shapes),
     );
     let (meshes, mesh_warnings) = meshes?;
     let mut images = images?;

@@ -1,13 +1,13 @@
-//! The node graph and its cameras.
+//! The node graph, and the scene of it that is shown.
 
+use super::cameras;
 use super::document::Document;
 use super::json::Object;
 use super::lights;
 use crate::warnings::Warnings;
-use crate::{Bound, IoError};
+use crate::{Bound, IoError, SceneChoice};
 use glam::{Mat4, Quat, Vec3, Vec4};
-use gltf::json::validation::Checked;
-use lumbre_scene::{Camera, CameraId, LightId, MeshId, Node, NodeId, Projection};
+use lumbre_scene::{Camera, CameraId, LightId, MeshId, Node, NodeId};
 
 /// What `load` finds.
 pub(super) struct Graph {
@@ -17,16 +17,21 @@ pub(super) struct Graph {
 }
 
 /// Reads nodes, cameras and the scene to show. Node `i` of the file becomes node `i` of the scene.
-pub(super) fn load(doc: &Document, light_count: usize, warnings: &mut Warnings) -> Result<Graph, IoError> {
-    let (mut cameras, camera_ids) = load_cameras(doc, warnings)?;
+pub(super) fn load(
+    doc: &Document,
+    light_count: usize,
+    choice: &SceneChoice,
+    warnings: &mut Warnings,
+) -> Result<Graph, IoError> {
+    let mut cameras = cameras::load_all(doc, warnings)?;
     let mut nodes = Vec::with_capacity(doc.root.nodes.len());
     for i in 0..doc.root.nodes.len() {
-        nodes.push(load_node(doc, i, (light_count, &camera_ids), warnings)?);
+        nodes.push(load_node(doc, i, light_count, warnings)?);
     }
     let instances = nodes.iter().filter(|n| n.mesh.is_some()).count() as u64;
     doc.limits.hold(Bound::Instances, doc.path, "/nodes", instances)?;
     let parentless = check_trees(doc, &nodes)?;
-    let roots = load_roots(doc, parentless, warnings)?;
+    let roots = load_roots(doc, parentless, choice, warnings)?;
     // Most cameras are named by their node only.
     for node in &nodes {
         if let Some(camera) = node.camera.and_then(|c| cameras.get_mut(c.index()))
@@ -38,47 +43,10 @@ pub(super) fn load(doc: &Document, light_count: usize, warnings: &mut Warnings) 
     Ok(Graph { nodes, roots, cameras })
 }
 
-/// Perspective cameras, and for each camera of the file which one it became.
-fn load_cameras(
-    doc: &Document,
-    warnings: &mut Warnings,
-) -> Result<(Vec<Camera>, Vec<Option<CameraId>>), IoError> {
-    use gltf::json::camera::Type;
-    let (mut cameras, mut ids) = (Vec::new(), Vec::new());
-    for (i, json) in doc.root.cameras.iter().enumerate() {
-        let place = format!("/cameras/{i}");
-        match (&json.type_, &json.perspective) {
-            (Checked::Valid(Type::Perspective), Some(p)) => {
-                if !(p.yfov > 0.0 && p.yfov < std::f32::consts::PI) {
-                    let why = format!("yfov {} is not between 0 and π", p.yfov);
-                    return Err(doc.error(place + "/perspective", why));
-                }
-                let aspect = p.aspect_ratio.filter(|a| a.is_finite() && *a > 0.0);
-                if aspect != p.aspect_ratio {
-                    warnings.add(&place, "the aspect ratio is not positive and is ignored");
-                }
-                ids.push(Some(CameraId(cameras.len() as u32)));
-                cameras.push(Camera {
-                    name: json.name.clone().unwrap_or_default(),
-                    projection: Projection::Perspective { yfov: p.yfov, aspect },
-                    lens_radius: 0.0,
-                    focus_distance: 1.0,
-                });
-            }
-            (Checked::Valid(Type::Orthographic), _) => {
-                warnings.add(&place, "orthographic cameras are not supported and are skipped");
-                ids.push(None);
-            }
-            _ => return Err(doc.error(place, "is neither a perspective nor an orthographic camera")),
-        }
-    }
-    Ok((cameras, ids))
-}
-
 fn load_node(
     doc: &Document,
     index: usize,
-    (light_count, cameras): (usize, &[Option<CameraId>]),
+    light_count: usize,
     warnings: &mut Warnings,
 ) -> Result<Node, IoError> {
     let json = &doc.root.nodes[index];
@@ -97,7 +65,8 @@ fn load_node(
         node.mesh = Some(MeshId(mesh.value() as u32));
     }
     if let Some(camera) = json.camera {
-        node.camera = *doc.item(cameras, camera.value(), "camera", &|| format!("{place}/camera"))?;
+        doc.item(&doc.root.cameras, camera.value(), "camera", &|| format!("{place}/camera"))?;
+        node.camera = Some(CameraId(camera.value() as u32));
     }
     let value = json.extensions.as_ref().and_then(|e| e.others.get(lights::NAME));
     let extension = Object::new(doc, value, || format!("{place}/extensions/{}", lights::NAME))?;
@@ -121,14 +90,8 @@ fn transform(
     let mut matrix = match json.matrix {
         Some(m) => Mat4::from_cols_array(&m),
         None => {
-            let [x, y, z, w] = json.rotation.map_or([0.0, 0.0, 0.0, 1.0], |r| r.0);
-            let length = Vec4::new(x, y, z, w).length();
-            let rotation = if length > 1e-6 && length.is_finite() {
-                Quat::from_xyzw(x / length, y / length, z / length, w / length)
-            } else {
-                warnings.add(place, "a rotation that is no quaternion is ignored");
-                Quat::IDENTITY
-            };
+            let turned = json.rotation.map_or([0.0, 0.0, 0.0, 1.0], |r| r.0);
+            let rotation = rotation(turned, place, warnings);
             let scale = json.scale.map_or(Vec3::ONE, Vec3::from);
             let translation = json.translation.map_or(Vec3::ZERO, Vec3::from);
             Mat4::from_scale_rotation_translation(scale, rotation, translation)
@@ -145,6 +108,16 @@ fn transform(
         matrix.w_axis.w = 1.0;
     }
     Ok(matrix)
+}
+
+/// The rotation that a quaternion (x, y, z, w) of any length means.
+pub(super) fn rotation([x, y, z, w]: [f32; 4], place: &str, warnings: &mut Warnings) -> Quat {
+    let length = Vec4::new(x, y, z, w).length();
+    if length > 1e-6 && length.is_finite() {
+        return Quat::from_xyzw(x / length, y / length, z / length, w / length);
+    }
+    warnings.add(place, "a rotation that is no quaternion is ignored");
+    Quat::IDENTITY
 }
 
 /// Checks that the nodes form trees (glTF 2.0, 3.5.2); returns those without a parent.
@@ -174,20 +147,23 @@ fn check_trees(doc: &Document, nodes: &[Node]) -> Result<Vec<NodeId>, IoError> {
     }
 }
 
-/// The nodes to show: the default scene's, else the first one's, else all without a parent.
+/// The nodes to show: those of the chosen scene. The default is the one that the file names, else its first, else all nodes
+/// without a parent.
 fn load_roots(
     doc: &Document,
     parentless: Vec<NodeId>,
+    choice: &SceneChoice,
     warnings: &mut Warnings,
 ) -> Result<Vec<NodeId>, IoError> {
     let scenes = &doc.root.scenes;
-    let index = match doc.root.scene {
-        Some(i) => i.value(),
-        None if scenes.is_empty() => return Ok(parentless),
-        None => 0,
+    let index = match (choice, doc.root.scene) {
+        (SceneChoice::Default, Some(i)) => i.value(),
+        (SceneChoice::Default, None) if scenes.is_empty() => return Ok(parentless),
+        (SceneChoice::Default, None) => 0,
+        _ => chosen_scene(doc, choice)?,
     };
     let scene = doc.item(scenes, index, "scene", &|| "/scene".into())?;
-    if scenes.len() > 1 {
+    if scenes.len() > 1 && *choice == SceneChoice::Default {
         warnings.add("/scenes", format!("there are {}; scene {index} is shown", scenes.len()));
     }
     let mut roots = Vec::with_capacity(scene.nodes.len());
@@ -200,4 +176,21 @@ fn load_roots(
         }
     }
     Ok(roots)
+}
+
+/// The index of the scene that the caller asked for.
+fn chosen_scene(doc: &Document, choice: &SceneChoice) -> Result<usize, IoError> {
+    let scenes = &doc.root.scenes;
+    let (found, wanted) = match choice {
+        SceneChoice::Default => (None, String::new()),
+        SceneChoice::Index(i) => (Some(*i).filter(|i| *i < scenes.len()), i.to_string()),
+        SceneChoice::Name(name) => {
+            (scenes.iter().position(|s| s.name.as_ref() == Some(name)), format!("{name:?}"))
+        }
+    };
+    found.ok_or_else(|| {
+        let name = |(i, s): (usize, &gltf::json::Scene)| s.name.clone().unwrap_or_else(|| i.to_string());
+        let names: Vec<String> = scenes.iter().enumerate().map(name).collect();
+        IoError::not_there(doc.path, "scene", wanted, &names)
+    })
 }

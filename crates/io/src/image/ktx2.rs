@@ -5,6 +5,7 @@
 //!
 //! Whether the numbers are sRGB is left out: in glTF, the use of a texture says it.
 
+use super::ldr::{check_density, most_pixels_of_few_bytes};
 use crate::{IoError, Limits};
 use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
 use ktx2::{Format, Header, Reader, SupercompressionScheme};
@@ -55,12 +56,18 @@ fn open<'a>(
     decoded_texel: u64,
 ) -> Result<Reader<&'a [u8]>, IoError> {
     let reader = Reader::new(bytes).map_err(|e| IoError::data(path, "", format!("damaged KTX2: {e}")))?;
-    let Header { pixel_width, pixel_height, pixel_depth, layer_count, face_count, .. } = reader.header();
+    let header = reader.header();
+    let Header { pixel_width, pixel_height, pixel_depth, layer_count, face_count, .. } = header;
     if pixel_height == 0 || pixel_depth > 0 || layer_count > 0 || face_count != 1 {
         let what = "KTX2 textures other than one two-dimensional image (lines, volumes, arrays, cubes)";
         return Err(IoError::unsupported(path, "", what));
     }
     limits.check_image(path, (pixel_width.into(), pixel_height.into()), decoded_texel)?;
+    // Of all others, the size of the image is known exactly.
+    if header.supercompression_scheme == Some(SupercompressionScheme::BasisLZ) {
+        let most = most_pixels_of_few_bytes(bytes.len());
+        check_density(path, (pixel_width, pixel_height), bytes.len(), most)?;
+    }
     Ok(reader)
 }
 
@@ -129,7 +136,8 @@ fn basis(reader: &Reader<&[u8]>, path: &Path) -> Result<Vec<u8>, IoError> {
     let header = reader.header();
     let lz = header.supercompression_scheme == Some(SupercompressionScheme::BasisLZ);
     let file = if lz { Cow::Borrowed(reader.data()) } else { Cow::Owned(unsqueezed(reader, path)?) };
-    let wrong = |e: basisu::Error| IoError::data(path, "", format!("damaged or unknown Basis data: {e:?}"));
+    // Its errors say no more than that.
+    let wrong = |_| IoError::data(path, "", "its Basis data is damaged or of an unknown kind");
     let transcoder = Transcoder::new(&file).map_err(wrong)?;
     if !matches!(transcoder.source_format(), SourceFormat::Etc1s | SourceFormat::UastcLdr) {
         return Err(IoError::unsupported(path, "", "Basis data other than ETC1S and UASTC"));

@@ -57,15 +57,29 @@ fn is_tga(bytes: &[u8]) -> bool {
     map_fits && side(12) > 0 && side(14) > 0 && descriptor & 0xc0 == 0 && descriptor & 0xf <= 8
 }
 
-/// Most pixels to a byte. A header that claims more is lying about its size.
-fn most_pixels_per_byte(format: ImageFormat) -> u64 {
-    match format {
-        // A plain picture of any size takes a few bytes; no side exceeds 16,384.
-        ImageFormat::WebP => u64::MAX,
-        // Deflate reaches at most 1032:1 (RFC 1951: 258 bytes by 2 bits), and a PNG has up to 8 pixels to a byte. A JPEG
-        // spends two bits on 64 pixels or more; runs in BMP and TGA make at most 255 pixels of two bytes.
-        _ => 8 * 1032,
+/// Deflate reaches at most 1032:1 (RFC 1951: 258 bytes by 2 bits), and a PNG has up to 8 pixels to a byte. A JPEG spends
+/// two bits on 64 pixels or more; runs in BMP and TGA make at most 255 pixels of two bytes.
+const MOST_PIXELS_PER_BYTE: u64 = 8 * 1032;
+
+/// WebP and ETC1S may say a plain picture of any size with the same few bytes: what is larger than a texture commonly is
+/// (4096 x 4096) must have bytes to show for it, so that a handful of them does not keep the machine busy.
+pub(super) fn most_pixels_of_few_bytes(bytes: usize) -> u64 {
+    const ANY: u64 = 4096 * 4096;
+    const PER_BYTE: u64 = 1 << 16;
+    (bytes as u64).saturating_mul(PER_BYTE).max(ANY)
+}
+
+/// A header that claims more pixels than its file can hold is lying.
+pub(super) fn check_density(
+    path: &Path,
+    (width, height): (u32, u32),
+    bytes: usize,
+    most: u64,
+) -> Result<(), IoError> {
+    if u64::from(width) * u64::from(height) <= most {
+        return Ok(());
     }
+    Err(IoError::data(path, "", format!("{width} x {height} pixels cannot be held by {bytes} bytes")))
 }
 
 fn open<'a>(
@@ -84,11 +98,11 @@ fn open<'a>(
     let (width, height) = decoder.dimensions();
     let texel = decoded_texel.max(u64::from(decoder.color_type().bytes_per_pixel()));
     limits.check_image(path, (width.into(), height.into()), texel)?;
-    let most = (bytes.len() as u64).saturating_mul(most_pixels_per_byte(format));
-    if u64::from(width) * u64::from(height) > most {
-        let why = format!("{width} x {height} pixels cannot be held by {} bytes", bytes.len());
-        return Err(IoError::data(path, "", why));
-    }
+    let most = match format {
+        ImageFormat::WebP => most_pixels_of_few_bytes(bytes.len()),
+        _ => (bytes.len() as u64).saturating_mul(MOST_PIXELS_PER_BYTE),
+    };
+    check_density(path, (width, height), bytes.len(), most)?;
     Ok((decoder, width, height))
 }
 

@@ -62,6 +62,15 @@ impl Gltf {
         accessors.len() - 1
     }
 
+    /// Adds a view of these bytes.
+    pub fn view(&mut self, bytes: &[u8]) -> usize {
+        let accessor = self.raw(5121, "SCALAR", bytes.len(), bytes);
+        let accessors = self.doc["accessors"].as_array_mut().unwrap();
+        accessors.pop();
+        assert_eq!(accessors.len(), accessor);
+        self.doc["bufferViews"].as_array().unwrap().len() - 1
+    }
+
     /// Adds an accessor of floats.
     pub fn f32s(&mut self, kind: &str, values: &[f32]) -> usize {
         let lanes = match kind {
@@ -169,6 +178,49 @@ impl Gltf {
 /// Bytes to base64.
 pub fn base64(bytes: &[u8]) -> String {
     base64::engine::general_purpose::STANDARD.encode(bytes)
+}
+
+/// Base64 to bytes.
+pub fn unbase64(text: &Value) -> Vec<u8> {
+    base64::engine::general_purpose::STANDARD.decode(text.as_str().unwrap()).unwrap()
+}
+
+/// A scene of one Draco primitive: a case of `data/draco.json`, with this stream.
+pub fn draco_scene(case: &Value, stream: &[u8]) -> Gltf {
+    let mut g = Gltf::triangle();
+    let view = g.view(stream);
+    let (mut accessors, mut attributes) = (Vec::new(), json!({}));
+    let forms = [
+        ("POSITION", "VEC3", 5126),
+        ("NORMAL", "VEC3", 5126),
+        ("TEXCOORD_0", "VEC2", 5126),
+        ("COLOR_0", "VEC4", 5121),
+    ];
+    for (name, kind, component) in forms {
+        attributes[name] = json!(accessors.len());
+        accessors.push(json!({"componentType": component, "type": kind, "count": case["points"],
+            "normalized": component == 5121}));
+    }
+    let corners = case["faces"].as_array().unwrap().len();
+    accessors.push(json!({"componentType": 5125, "type": "SCALAR", "count": corners}));
+    g.doc["accessors"] = json!(accessors);
+    *g.primitive() = json!({"attributes": attributes, "indices": 4,
+        "extensions": {"KHR_draco_mesh_compression": {"bufferView": view, "attributes": case["ids"]}}});
+    g.doc["extensionsUsed"] = json!(["KHR_draco_mesh_compression"]);
+    g.doc["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
+    g
+}
+
+/// A triangle, and beside it a compressed view: a case of `data/meshopt.json`, with this stream.
+pub fn meshopt_scene(case: &Value, stream: &[u8]) -> Gltf {
+    let mut g = Gltf::triangle();
+    let raw = g.view(stream);
+    let offset = g.doc["bufferViews"][raw]["byteOffset"].clone();
+    g.doc["bufferViews"][raw] = json!({"buffer": 0, "byteLength": unbase64(&case["decoded"]).len(),
+        "byteStride": case["stride"], "extensions": {"EXT_meshopt_compression": {
+            "buffer": 0, "byteOffset": offset, "byteLength": stream.len(), "byteStride": case["stride"],
+            "mode": case["mode"], "filter": case["filter"], "count": case["count"]}}});
+    g
 }
 
 /// A PNG of RGBA texels.

@@ -2,6 +2,7 @@
 
 use super::{CompareError, ImageView, Score, check_pair};
 use lumbre_core::Rgb;
+use lumbre_core::color::srgb_encode;
 
 /// Root of the mean squared difference over pixels and channels, linear values. 0 for equal pictures.
 ///
@@ -27,10 +28,9 @@ pub fn rel_mse(reference: ImageView, test: ImageView) -> Result<Score, CompareEr
 /// # Errors
 /// When the sizes differ or no pixel is finite in both.
 pub fn psnr(reference: ImageView, test: ImageView) -> Result<Score, CompareError> {
-    let mse = mean_over_channels(reference, test, |r, t| {
-        let d = srgb_encode(t) - srgb_encode(r);
-        d * d
-    })?;
+    // The curve clamps.
+    let shown = |v: f64| f64::from(srgb_encode(v as f32));
+    let mse = mean_over_channels(reference, test, |r, t| (shown(t) - shown(r)).powi(2))?;
     Ok(Score { value: -10.0 * mse.value.log10(), ..mse })
 }
 
@@ -50,12 +50,6 @@ fn mean_over_channels(
     }
     let pixels = reference.pixels.len() - nonfinite.either;
     Ok(Score { value: sum / (3 * pixels) as f64, nonfinite })
-}
-
-/// The sRGB curve of IEC 61966-2-1, input clamped to [0, 1].
-fn srgb_encode(linear: f64) -> f64 {
-    let x = linear.clamp(0.0, 1.0);
-    if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]

@@ -10,6 +10,13 @@ pub enum Projection {
         /// Width over height as the author framed it; `None`: that of the picture.
         aspect: Option<f32>,
     },
+    /// Parallel rays.
+    Orthographic {
+        /// Half the width of the view, metres, positive. The scale of the node does not change it.
+        xmag: f32,
+        /// Half its height, metres, positive.
+        ymag: f32,
+    },
 }
 
 /// A camera. It looks along -z of its node, +y up.
@@ -19,7 +26,7 @@ pub struct Camera {
     pub name: String,
     /// Projection.
     pub projection: Projection,
-    /// Radius of the lens, metres; 0 is a pinhole.
+    /// Radius of the lens, metres; 0 for none: all is sharp.
     pub lens_radius: f32,
     /// Distance along -z that is sharp, metres.
     pub focus_distance: f32,

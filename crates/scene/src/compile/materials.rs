@@ -56,7 +56,8 @@ pub(super) fn unit(v: f32, otherwise: f32) -> f32 {
 
 /// The boundary of a solid that transmits.
 fn is_solid(m: &Material) -> bool {
-    m.volume.is_some_and(|v| v.thickness > 0.0) && m.transmission > 0.0 && !m.unlit
+    let transmits = m.transmission > 0.0 || m.diffuse_transmission.is_some_and(|d| d.factor > 0.0);
+    m.volume.is_some_and(|v| v.thickness > 0.0) && transmits && !m.unlit
 }
 
 fn record(m: &Material) -> MaterialRecord {

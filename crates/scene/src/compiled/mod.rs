@@ -87,6 +87,59 @@ impl CompiledScene {
         self.light_cdf[light as usize + 1] - self.light_cdf[light as usize]
     }
 
+    /// Memory that the arrays hold, bytes.
+    pub fn bytes(&self) -> u64 {
+        // All fields by name, so that none is forgotten.
+        let CompiledScene {
+            positions,
+            normals,
+            vertices,
+            triangles,
+            triangle_materials,
+            meshes,
+            emissive_ranks,
+            instances,
+            transforms,
+            materials,
+            lobes,
+            textures,
+            texels,
+            lights,
+            light_cdf,
+            triangle_lights,
+            punctual_lights,
+            sun: _,
+            environment: _,
+            environment_pixels,
+            environment_row_cdf,
+            environment_cell_cdf,
+            bounds: _,
+        } = self;
+        let parts = [
+            size_of_val(&positions[..]),
+            size_of_val(&normals[..]),
+            size_of_val(&vertices[..]),
+            size_of_val(&triangles[..]),
+            size_of_val(&triangle_materials[..]),
+            size_of_val(&meshes[..]),
+            size_of_val(&emissive_ranks[..]),
+            size_of_val(&instances[..]),
+            size_of_val(&transforms[..]),
+            size_of_val(&materials[..]),
+            size_of_val(&lobes[..]),
+            size_of_val(&textures[..]),
+            size_of_val(&texels[..]),
+            size_of_val(&lights[..]),
+            size_of_val(&light_cdf[..]),
+            size_of_val(&triangle_lights[..]),
+            size_of_val(&punctual_lights[..]),
+            size_of_val(&environment_pixels[..]),
+            size_of_val(&environment_row_cdf[..]),
+            size_of_val(&environment_cell_cdf[..]),
+        ];
+        parts.into_iter().map(|n| n as u64).sum()
+    }
+
     /// Radius of the sphere around the bounding box, metres; 0 for an empty scene.
     pub fn radius(&self) -> f32 {
         let [min, max] = self.bounds.map(glam::Vec3::from_array);

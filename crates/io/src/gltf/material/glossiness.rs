@@ -7,8 +7,7 @@
 
 use super::super::textures::TextureTable;
 use super::Loader;
-use crate::limits::Bound;
-use crate::{IoError, Limits};
+use crate::{Bound, IoError, Limits};
 use lumbre_core::Rgb;
 use lumbre_scene::{Image, ImageId, Material, TextureId};
 use rayon::prelude::*;
@@ -67,7 +66,8 @@ impl TextureTable {
         path: &Path,
         limits: &Limits,
     ) -> Result<(), IoError> {
-        let mut bytes: u64 = images.iter().map(|i| i.rgba8.len() as u64).sum();
+        let mut room = limits.room(Bound::TotalImageBytes);
+        room.take(path, "/images", images.iter().map(|i| i.rgba8.len() as u64).sum())?;
         let mut made: HashMap<(ImageId, u32), ImageId> = HashMap::new();
         let mut jobs = Vec::new();
         for &(texture, factor) in &self.glossy.textures {
@@ -76,8 +76,7 @@ impl TextureTable {
             let next = ImageId((images.len() + jobs.len()) as u32);
             texture.image = *made.entry((source, factor.to_bits())).or_insert(next);
             if texture.image == next {
-                bytes = bytes.saturating_add(images[source.index()].rgba8.len() as u64);
-                limits.hold(Bound::TotalImageBytes, path, "/images", bytes)?;
+                room.take(path, "/images", images[source.index()].rgba8.len() as u64)?;
                 jobs.push((source, factor));
             }
         }

@@ -1,0 +1,60 @@
+//! `lumbre info`: what a scene holds, what it takes, and why its picture might be black.
+
+mod advice;
+mod json;
+mod text;
+
+use crate::exit::{Code, Failure};
+use crate::flags::info::InfoArgs;
+use crate::flags::values::Size;
+use crate::{console, memory};
+use lumbre::core::Film;
+use lumbre::io::{Description, ErrorKind, describe_scene};
+use lumbre::{Device, InfoError, SceneInfo};
+
+/// Runs the command.
+pub(crate) fn run(args: &InfoArgs) -> Result<Code, Failure> {
+    Device::Cpu.check()?;
+    let options = args.loading.options();
+    let description = describe_scene(&args.scene, &options)?;
+    let opened = lumbre::load_scene(&args.scene, &options);
+    let warnings = opened.as_ref().map_or(&[][..], |l| &l.warnings);
+    warnings.iter().for_each(console::warning);
+    let (info, failure) = match opened {
+        Ok(loaded) => match lumbre::info(&loaded.scene) {
+            Ok(info) => (Some(info), None),
+            Err(e) => (None, Some(e.into())),
+        },
+        // What is damaged or not supported has a head that was read; what is not there is no scene.
+        Err(e) if e.kind() == ErrorKind::BadData => (None, Some(e.into())),
+        Err(e) => return Err(e.into()),
+    };
+    let report = Report { args, description, info };
+    console::result(if args.json { json::of(&report) } else { text::of(&report) })?;
+    failure.map_or(Ok(Code::Done), Err)
+}
+
+impl From<InfoError> for Failure {
+    fn from(e: InfoError) -> Self {
+        match e {
+            InfoError::Compile(e) => e.into(),
+            InfoError::Device(e) => e.into(),
+        }
+    }
+}
+
+/// All there is to print.
+struct Report<'a> {
+    args: &'a InfoArgs,
+    description: Description,
+    /// `None`: the scene could not be read.
+    info: Option<SceneInfo>,
+}
+
+impl Report<'_> {
+    /// Bytes of the film of a picture of the size asked for, and of writing the most demanding output.
+    fn film_bytes(&self) -> u64 {
+        let Size([width, height]) = self.args.size;
+        Film::bytes(width, height) + u64::from(width) * u64::from(height) * memory::EXR_BYTES_PER_PIXEL
+    }
+}
