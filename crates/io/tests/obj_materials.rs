@@ -67,10 +67,10 @@ fn emission_is_radiance_as_it_stands() {
 
 #[test]
 fn the_filter_is_what_passes_a_body() {
-    let m = made("illum 7\nNi 2.5\nTf 0.25 1 0.01");
-    assert_eq!(m.base_color * m.base_color, Rgb::new(0.25, 1.0, 0.01));
+    let m = made("illum 7\nNi 2.5\nTf 0.25 1 0.0625");
+    assert_eq!(m.base_color * m.base_color, Rgb::new(0.25, 1.0, 0.0625));
     // A pane is crossed once.
-    assert_eq!(made("illum 9\nTf 0.25 1 0.01").base_color, Rgb::new(0.25, 1.0, 0.01));
+    assert_eq!(made("illum 9\nTf 0.25 1 0.0625").base_color, Rgb::new(0.25, 1.0, 0.0625));
 }
 
 #[test]
