@@ -3,6 +3,7 @@
 use super::{Report, advice};
 use crate::flags::values::Size;
 use crate::memory::human;
+use lumbre::core::math::Vec3;
 use lumbre::io::{Description, Support, UsedExtension, one_line};
 use lumbre::scene::Projection;
 use lumbre::{SceneInfo, info};
@@ -146,9 +147,9 @@ fn scene(page: &mut Page, info: &SceneInfo) {
     if let Some([min, max]) = info.bounds {
         let size = max - min;
         page.say("size", &format!("{} x {} x {} m", short(size.x), short(size.y), short(size.z)));
-        let corner = |c: lumbre::core::math::Vec3| {
-            format!("({},\u{a0}{},\u{a0}{})", short(c.x), short(c.y), short(c.z))
-        };
+        // What is nothing beside the size of the scene is rounding.
+        let round = |v: f32| short(if v.abs() < 1e-6 * size.length() { 0.0 } else { v });
+        let corner = |c: Vec3| format!("({},\u{a0}{},\u{a0}{})", round(c.x), round(c.y), round(c.z));
         page.say("bounds", &format!("{} to {} m", corner(min), corner(max)));
     }
     textures(page, info);
@@ -179,11 +180,17 @@ fn textures(page: &mut Page, info: &SceneInfo) {
     let (textures, images) =
         (count(t.textures as u64, "texture", "textures"), count(t.images.len() as u64, "image", "images"));
     page.say("textures", &format!("{textures} of {images}, {} decoded", human(t.bytes)));
-    let image = |i: &info::ImageInfo| {
-        let size = format!("{} x {}", i.size[0], i.size[1]);
-        format!("{size:<13}{}", i.name)
-    };
-    page.list("", &t.images.iter().map(image).collect::<Vec<_>>());
+    // Sizes, the most frequent first; the images by name are for --json.
+    let mut sizes: Vec<([u32; 2], u64)> = Vec::new();
+    for image in &t.images {
+        match sizes.iter_mut().find(|(size, _)| *size == image.size) {
+            Some((_, count)) => *count += 1,
+            None => sizes.push((image.size, 1)),
+        }
+    }
+    sizes.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let row = |([w, h], n): &([u32; 2], u64)| format!("{} of {w} x {h}", thousands(*n));
+    page.list("", &sizes.iter().map(row).collect::<Vec<_>>());
 }
 
 fn lights(page: &mut Page, l: &info::LightInfo) {
@@ -217,8 +224,12 @@ fn materials(page: &mut Page, info: &SceneInfo) {
         };
         let unused = if m.used { "" } else { "; not used" };
         let lobes: Vec<String> = m.lobes.iter().map(|l| l.replace(' ', "\u{a0}")).collect();
-        format!("{i}{}  {}{textures}{unused}", named(&m.name), lobes.join(", "))
+        let lobes = if lobes.is_empty() { "black".into() } else { lobes.join(", ") };
+        format!("{i}{}  {lobes}{textures}{unused}", named(&m.name))
     };
+    if info.materials.is_empty() {
+        page.say("materials", "none: all is white");
+    }
     page.list("materials", &info.materials.iter().enumerate().map(row).collect::<Vec<_>>());
 }
 
@@ -226,7 +237,7 @@ fn cameras(page: &mut Page, info: &SceneInfo) {
     let row = |(i, c): (usize, &info::CameraInfo)| {
         let projection = match c.projection {
             Projection::Perspective { yfov, aspect } => {
-                let shape = aspect.map_or_else(String::new, |a| format!(", {} wide by 1 high", short(a)));
+                let shape = aspect.map_or_else(String::new, |a| format!(", {}:1", short(a)));
                 format!("perspective, {}° high{shape}", short(yfov.to_degrees()))
             }
             Projection::Orthographic { xmag, ymag } => {
@@ -245,28 +256,26 @@ fn cameras(page: &mut Page, info: &SceneInfo) {
 
 fn memory(page: &mut Page, report: &Report<'_>, info: &SceneInfo) {
     let (m, film, Size([width, height])) = (&info.memory, report.film_bytes(), report.args.size);
-    page.say(
-        "memory",
-        &format!(
-            "{}: scene {}, trees for rays {}, picture of {width}x{height} {}; while opening {}",
-            human(m.scene + m.acceleration + film),
-            human(m.scene),
-            human(m.acceleration),
-            human(film),
-            human(m.scene + m.opening),
-        ),
+    let (opening, rendering) = (m.scene + m.opening, m.scene + m.acceleration + film);
+    let parts = format!(
+        "scene {}, trees for rays {}, picture of {width}x{height} {}",
+        human(m.scene),
+        human(m.acceleration),
+        human(film)
     );
+    let most = human(opening.max(rendering));
+    page.say("memory", &format!("{most}: {parts}; while opening {}", human(opening)));
 }
 
 fn hints(page: &mut Page, info: &SceneInfo) {
     page.list("left out", &info.notes);
-    let rows: Vec<String> = info
-        .hints
-        .iter()
-        .map(|h| advice::on(h.kind).map_or(h.message.clone(), |a| format!("{}: {a}", h.message)))
-        .collect();
-    page.list("hints", &rows);
-    if rows.is_empty() {
+    if info.hints.is_empty() {
         page.say("hints", "none");
+    }
+    for (i, hint) in info.hints.iter().enumerate() {
+        page.hang(if i == 0 { "hints" } else { "" }, &format!("- {}", hint.message), 2);
+        if let Some(advice) = advice::on(hint.kind) {
+            page.hang("", &format!("\u{a0}\u{a0}→ {advice}"), 4);
+        }
     }
 }
