@@ -3,7 +3,8 @@
 use super::{Report, advice};
 use crate::flags::values::Size;
 use crate::memory::human;
-use lumbre::io::{Description, Support, UsedExtension, one_line};
+use lumbre::core::math::Vec3;
+use lumbre::io::{Support, UsedExtension, one_line};
 use lumbre::scene::Projection;
 use lumbre::{SceneInfo, info};
 
@@ -15,7 +16,7 @@ const MOST: usize = 24;
 
 pub(super) fn of(report: &Report<'_>) -> String {
     let mut page = Page::default();
-    file(&mut page, &report.args.scene.to_string_lossy(), &report.description);
+    file(&mut page, report);
     if let Some(info) = &report.info {
         scene(&mut page, info);
         memory(&mut page, report, info);
@@ -24,7 +25,7 @@ pub(super) fn of(report: &Report<'_>) -> String {
         let lists = report.description.lists.iter().filter(|(_, count)| *count > 0);
         page.say(
             "lists",
-            &lists.map(|(what, count)| format!("{count} {what}")).collect::<Vec<_>>().join(", "),
+            &lists.map(|(what, count)| format!("{what} {count}")).collect::<Vec<_>>().join(", "),
         );
     }
     page.0.trim_end().to_string()
@@ -37,17 +38,17 @@ struct Page(String);
 impl Page {
     /// Text behind a word, broken between its words; nothing if it is empty.
     fn say(&mut self, word: &str, text: &str) {
-        self.hang(word, text, 0);
+        self.hang(word, text, [0, 0]);
     }
 
-    /// As `say`; all lines but the first are set in by so much more.
-    fn hang(&mut self, word: &str, text: &str, hang: usize) {
-        let mut line = format!("{word:<LEFT$}");
+    /// As `say`; the first line and those after it are set in by so much more.
+    fn hang(&mut self, word: &str, text: &str, [first, rest]: [usize; 2]) {
+        let mut line = format!("{word:<LEFT$}{:first$}", "");
         let mut begun = false;
         for part in one_line(text).split_inclusive(' ') {
             if begun && line.chars().count() + part.trim_end().chars().count() > WIDTH {
                 self.push(&line);
-                line = " ".repeat(LEFT + hang);
+                line = " ".repeat(LEFT + rest);
             }
             line.push_str(part);
             begun = true;
@@ -57,15 +58,16 @@ impl Page {
         }
     }
 
+    /// Adds a line. Blanks that are not to break it are common ones from now on.
     fn push(&mut self, line: &str) {
-        self.0.push_str(line.trim_end());
+        self.0.push_str(line.replace('\u{a0}', " ").trim_end());
         self.0.push('\n');
     }
 
     /// Rows of a list behind a word that stands once.
     fn list(&mut self, word: &str, rows: &[String]) {
         for (i, row) in rows.iter().take(MOST).enumerate() {
-            self.hang(if i == 0 { word } else { "" }, row, 4);
+            self.hang(if i == 0 { word } else { "" }, row, [0, 4]);
         }
         if rows.len() > MOST {
             self.say("", &format!("and {} more; --json lists all", rows.len() - MOST));
@@ -96,8 +98,9 @@ fn named(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("  {name}") }
 }
 
-fn file(page: &mut Page, name: &str, d: &Description) {
-    page.say("file", name);
+fn file(page: &mut Page, report: &Report<'_>) {
+    let d = &report.description;
+    page.say("file", &report.args.scene.to_string_lossy());
     let by = d.generator.as_ref().map_or_else(String::new, |g| format!(", made by {g}"));
     page.say("format", &format!("{}, {}{by}", d.format, human(d.file_bytes)));
     let extension = |e: &UsedExtension| {
@@ -113,8 +116,9 @@ fn file(page: &mut Page, name: &str, d: &Description) {
     };
     page.list("extensions", &d.extensions.iter().map(extension).collect::<Vec<_>>());
     if d.scenes.len() > 1 {
+        let shown = report.shown_scene();
         let scene = |(i, name): (usize, &String)| {
-            format!("{i}{}{}", named(name), if i == d.default_scene { "  (shown)" } else { "" })
+            format!("{i}{}{}", named(name), if i == shown { "  (shown)" } else { "" })
         };
         page.list("scenes", &d.scenes.iter().enumerate().map(scene).collect::<Vec<_>>());
     }
@@ -146,9 +150,9 @@ fn scene(page: &mut Page, info: &SceneInfo) {
     if let Some([min, max]) = info.bounds {
         let size = max - min;
         page.say("size", &format!("{} x {} x {} m", short(size.x), short(size.y), short(size.z)));
-        let corner = |c: lumbre::core::math::Vec3| {
-            format!("({},\u{a0}{},\u{a0}{})", short(c.x), short(c.y), short(c.z))
-        };
+        // What is nothing beside the size of the scene is rounding.
+        let round = |v: f32| short(if v.abs() < 1e-6 * size.length() { 0.0 } else { v });
+        let corner = |c: Vec3| format!("({},\u{a0}{},\u{a0}{})", round(c.x), round(c.y), round(c.z));
         page.say("bounds", &format!("{} to {} m", corner(min), corner(max)));
     }
     textures(page, info);
@@ -179,11 +183,17 @@ fn textures(page: &mut Page, info: &SceneInfo) {
     let (textures, images) =
         (count(t.textures as u64, "texture", "textures"), count(t.images.len() as u64, "image", "images"));
     page.say("textures", &format!("{textures} of {images}, {} decoded", human(t.bytes)));
-    let image = |i: &info::ImageInfo| {
-        let size = format!("{} x {}", i.size[0], i.size[1]);
-        format!("{size:<13}{}", i.name)
-    };
-    page.list("", &t.images.iter().map(image).collect::<Vec<_>>());
+    // Sizes, the most frequent first; the images by name are for --json.
+    let mut sizes: Vec<([u32; 2], u64)> = Vec::new();
+    for image in &t.images {
+        match sizes.iter_mut().find(|(size, _)| *size == image.size) {
+            Some((_, count)) => *count += 1,
+            None => sizes.push((image.size, 1)),
+        }
+    }
+    sizes.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let row = |([w, h], n): &([u32; 2], u64)| format!("{} of {w} x {h}", thousands(*n));
+    page.list("", &sizes.iter().map(row).collect::<Vec<_>>());
 }
 
 fn lights(page: &mut Page, l: &info::LightInfo) {
@@ -217,8 +227,12 @@ fn materials(page: &mut Page, info: &SceneInfo) {
         };
         let unused = if m.used { "" } else { "; not used" };
         let lobes: Vec<String> = m.lobes.iter().map(|l| l.replace(' ', "\u{a0}")).collect();
-        format!("{i}{}  {}{textures}{unused}", named(&m.name), lobes.join(", "))
+        let lobes = if lobes.is_empty() { "black".into() } else { lobes.join(", ") };
+        format!("{i}{}  {lobes}{textures}{unused}", named(&m.name))
     };
+    if info.materials.is_empty() {
+        page.say("materials", "none: all is white");
+    }
     page.list("materials", &info.materials.iter().enumerate().map(row).collect::<Vec<_>>());
 }
 
@@ -226,7 +240,7 @@ fn cameras(page: &mut Page, info: &SceneInfo) {
     let row = |(i, c): (usize, &info::CameraInfo)| {
         let projection = match c.projection {
             Projection::Perspective { yfov, aspect } => {
-                let shape = aspect.map_or_else(String::new, |a| format!(", {} wide by 1 high", short(a)));
+                let shape = aspect.map_or_else(String::new, |a| format!(", {}:1", short(a)));
                 format!("perspective, {}° high{shape}", short(yfov.to_degrees()))
             }
             Projection::Orthographic { xmag, ymag } => {
@@ -245,28 +259,26 @@ fn cameras(page: &mut Page, info: &SceneInfo) {
 
 fn memory(page: &mut Page, report: &Report<'_>, info: &SceneInfo) {
     let (m, film, Size([width, height])) = (&info.memory, report.film_bytes(), report.args.size);
-    page.say(
-        "memory",
-        &format!(
-            "{}: scene {}, trees for rays {}, picture of {width}x{height} {}; while opening {}",
-            human(m.scene + m.acceleration + film),
-            human(m.scene),
-            human(m.acceleration),
-            human(film),
-            human(m.scene + m.opening),
-        ),
+    let (opening, rendering) = (m.scene + m.opening, m.scene + m.acceleration + film);
+    let parts = format!(
+        "scene {}, trees for rays {}, picture of {width}x{height} {}",
+        human(m.scene),
+        human(m.acceleration),
+        human(film)
     );
+    let most = human(opening.max(rendering));
+    page.say("memory", &format!("{most}: {parts}; while opening {}", human(opening)));
 }
 
 fn hints(page: &mut Page, info: &SceneInfo) {
     page.list("left out", &info.notes);
-    let rows: Vec<String> = info
-        .hints
-        .iter()
-        .map(|h| advice::on(h.kind).map_or(h.message.clone(), |a| format!("{}: {a}", h.message)))
-        .collect();
-    page.list("hints", &rows);
-    if rows.is_empty() {
+    if info.hints.is_empty() {
         page.say("hints", "none");
+    }
+    for (i, hint) in info.hints.iter().enumerate() {
+        page.hang(if i == 0 { "hints" } else { "" }, &format!("- {}", hint.message), [0, 2]);
+        if let Some(advice) = advice::on(hint.kind) {
+            page.hang("", &format!("→ {advice}"), [2, 4]);
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::container;
 use super::document::Document;
 use super::extensions::GLTF_EXTENSIONS;
-use super::json::Object;
+use super::variants;
 use crate::describe::{Description, UsedExtension};
 use crate::warnings::Warnings;
 use crate::{IoError, LoadOptions};
@@ -24,7 +24,7 @@ pub(crate) fn describe(path: &Path, bytes: &[u8], options: &LoadOptions) -> Resu
         extensions: extensions(&doc),
         scenes: root.scenes.iter().map(|s| name(&s.name)).collect(),
         default_scene: root.scene.map_or(0, |i| i.value()),
-        variants: variants(&doc)?,
+        variants: variants::names(&doc)?,
         lists: vec![
             ("nodes", root.nodes.len()),
             ("meshes", root.meshes.len()),
@@ -51,15 +51,4 @@ fn extensions(doc: &Document) -> Vec<UsedExtension> {
         support: GLTF_EXTENSIONS.iter().find(|e| e.name == name).map(|e| e.support),
     };
     all.map(one).collect()
-}
-
-/// Names in `KHR_materials_variants`.
-fn variants(doc: &Document) -> Result<Vec<String>, IoError> {
-    const NAME: &str = "KHR_materials_variants";
-    let value = doc.root.extensions.as_ref().and_then(|e| e.others.get(NAME));
-    let Some(extension) = Object::new(doc, value, || format!("/extensions/{NAME}"))? else {
-        return Ok(Vec::new());
-    };
-    let name = |v: Object| Ok(v.string("name")?.unwrap_or_default().to_string());
-    extension.objects("variants")?.into_iter().map(name).collect()
 }

@@ -60,9 +60,5 @@ impl<'a> Document<'a> {
                 warnings.add(format!("/{what}"), format!("{what} are not supported; the rest pose is shown"));
             }
         }
-        let morphs = root.meshes.iter().flat_map(|m| &m.primitives).any(|p| p.targets.is_some());
-        if morphs {
-            warnings.add("/meshes", "morph targets are not supported; the unmorphed shape is shown");
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! Meshes, on all cores.
 
 use super::accessor::Accessors;
+use super::morph::Shape;
 use super::primitive;
 use crate::warnings::Warnings;
 use crate::{Bound, IoError};
@@ -9,22 +10,24 @@ use gltf::json::validation::Checked;
 use lumbre_scene::{Mesh, Primitive};
 use rayon::prelude::*;
 
-/// Reads every mesh. Mesh `i` of the file becomes mesh `i` of the scene, so that nodes may share it.
-pub(super) fn load_all(accessors: &Accessors) -> Result<(Vec<Mesh>, Warnings), IoError> {
-    check_budget(accessors)?;
+/// Reads every mesh. Shape `i` becomes mesh `i` of the scene, so that nodes may share it.
+pub(super) fn load_all(accessors: &Accessors, shapes: &[Shape]) -> Result<(Vec<Mesh>, Warnings), IoError> {
+    check_budget(accessors, shapes)?;
     let meshes = &accessors.doc.root.meshes;
-    let jobs: Vec<_> = meshes
+    let jobs: Vec<_> = shapes
         .iter()
         .enumerate()
-        .flat_map(|(m, mesh)| (0..mesh.primitives.len()).map(move |p| (m, p)))
+        .flat_map(|(s, shape)| (0..meshes[shape.mesh].primitives.len()).map(move |p| (s, p)))
         .collect();
     // Results are gathered before the first error is looked for, so that it is always the same one.
     let parts: Vec<Result<(Option<Primitive>, Warnings), IoError>> = jobs
         .par_iter()
-        .map(|&(m, p)| {
+        .map(|&(s, p)| {
             let mut warnings = Warnings::default();
-            let place = format!("/meshes/{m}/primitives/{p}");
-            let part = primitive::load(accessors, &meshes[m].primitives[p], &place, &mut warnings)?;
+            let shape = &shapes[s];
+            let place = format!("/meshes/{}/primitives/{p}", shape.mesh);
+            let json = &meshes[shape.mesh].primitives[p];
+            let part = primitive::load(accessors, json, shape, &place, &mut warnings)?;
             Ok((part, warnings))
         })
         .collect();
@@ -33,23 +36,23 @@ pub(super) fn load_all(accessors: &Accessors) -> Result<(Vec<Mesh>, Warnings), I
         name: mesh.name.clone().unwrap_or_default(),
         primitives: Vec::with_capacity(mesh.primitives.len()),
     };
-    let mut out: Vec<Mesh> = meshes.iter().map(named).collect();
-    for ((m, _), part) in jobs.into_iter().zip(parts) {
+    let mut out: Vec<Mesh> = shapes.iter().map(|s| named(&meshes[s.mesh])).collect();
+    for ((s, _), part) in jobs.into_iter().zip(parts) {
         let (primitive, said) = part?;
         warnings.append(said);
-        out[m].primitives.extend(primitive);
+        out[s].primitives.extend(primitive);
     }
     Ok((out, warnings))
 }
 
 /// Adds up what the meshes claim to hold before any of it is read: many primitives may share one accessor, so that a small
 /// file can ask for much.
-fn check_budget(accessors: &Accessors) -> Result<(), IoError> {
+fn check_budget(accessors: &Accessors, shapes: &[Shape]) -> Result<(), IoError> {
     let doc = accessors.doc;
     let (mut vertices, mut triangles) = (0u64, 0u64);
-    for (m, mesh) in doc.root.meshes.iter().enumerate() {
-        for (p, primitive) in mesh.primitives.iter().enumerate() {
-            let place = || format!("/meshes/{m}/primitives/{p}");
+    for shape in shapes {
+        for (p, primitive) in doc.root.meshes[shape.mesh].primitives.iter().enumerate() {
+            let place = || format!("/meshes/{}/primitives/{p}", shape.mesh);
             let Some(position) = primitive.attributes.get(&Checked::Valid(Semantic::Positions)) else {
                 continue;
             };
@@ -58,7 +61,9 @@ fn check_budget(accessors: &Accessors) -> Result<(), IoError> {
                 Some(i) => accessors.count(i.value(), &place)?,
                 None => count,
             };
-            vertices = vertices.saturating_add(count.min(used));
+            // Each morph target that counts is read like further vertices.
+            let sets = 1 + shape.targets(primitive).count() as u64;
+            vertices = vertices.saturating_add(count.min(used).saturating_mul(sets));
             let strip = matches!(primitive.mode, Checked::Valid(Mode::TriangleStrip | Mode::TriangleFan));
             triangles = triangles.saturating_add(if strip { used } else { used / 3 });
             doc.limits.hold(Bound::Vertices, doc.path, &place(), vertices)?;

@@ -1,8 +1,8 @@
 //! glTF 2.0 (Khronos Group 2021) to [`Scene`]. The `gltf` crate gives the JSON types only; its validator and importer are
 //! not used, because they panic on some wrong indices and follow paths out of the scene's folder.
 //!
-//! Extensions are read from the raw JSON (`json.rs`), all in the same way; `extensions.rs` lists them. Left out: skins,
-//! morph targets and animations (rest pose, with a warning), points and lines.
+//! Extensions are read from the raw JSON (`json.rs`), all in the same way; `extensions.rs` lists them. Left out: skins
+//! and animations (rest pose, with a warning), points and lines.
 
 mod accessor;
 mod buffers;
@@ -19,6 +19,7 @@ mod lights;
 mod material;
 mod mesh;
 mod meshopt;
+mod morph;
 mod nodes;
 mod prescan;
 mod primitive;
@@ -71,13 +72,14 @@ fn load(
     let materials = material::load_all(&doc, &mut table, &mut warnings)?;
     let lights = lights::load_all(&doc, &mut warnings)?;
     let mut graph = nodes::load(&doc, lights.len(), &options.scene, &mut warnings)?;
+    let shapes = morph::shapes(&doc, &mut graph.nodes);
     let accessors = Accessors { doc: &doc, buffers: &buffers };
     instancing::expand(&accessors, &mut graph.nodes, &mut warnings)?;
 
     // Then what is large, on all cores.
     let (images, meshes) = rayon::join(
         || images::load_all(&doc, &buffers, &resolver, table.images()),
-        || mesh::load_all(&accessors),
+        || mesh::load_all(&accessors, &shapes),
     );
     let (meshes, mesh_warnings) = meshes?;
     let mut images = images?;

@@ -2,6 +2,7 @@
 
 use super::accessor::Accessors;
 use super::draco::{self, Claims, DracoMesh};
+use super::morph::{self, Shape, Wanted};
 use crate::IoError;
 use crate::warnings::Warnings;
 use glam::{Vec2, Vec3, Vec4};
@@ -10,10 +11,11 @@ use gltf::json::validation::Checked;
 use lumbre_scene::{MaterialId, Primitive};
 use std::collections::HashMap;
 
-/// Reads a primitive that stands at `place`; `None` if it has no triangles.
+/// Reads a primitive of a shape that stands at `place`; `None` if it has no triangles.
 pub(super) fn load(
     accessors: &Accessors,
     json: &gltf::json::mesh::Primitive,
+    shape: &Shape,
     place: &str,
     warnings: &mut Warnings,
 ) -> Result<Option<Primitive>, IoError> {
@@ -42,6 +44,8 @@ pub(super) fn load(
     let used = (indices.len() < count).then(|| compact(&mut indices, count));
     let mut primitive = reader.attributes(position, used.as_deref())?;
     primitive.indices = indices;
+    let wanted = Wanted { count, select: used.as_deref() };
+    morph::apply(accessors, (shape, json), place, &wanted, &mut primitive)?;
     if let Some(material) = json.material {
         let here = || format!("{place}/material");
         accessors.doc.item(&accessors.doc.root.materials, material.value(), "material", &here)?;

@@ -32,7 +32,7 @@ pub(super) fn choose(doc: &mut Document, wanted: &str) -> Result<(), IoError> {
 }
 
 /// The names of the file's variants.
-fn names(doc: &Document) -> Result<Vec<String>, IoError> {
+pub(super) fn names(doc: &Document) -> Result<Vec<String>, IoError> {
     let value = doc.root.extensions.as_ref().and_then(|e| e.others.get(NAME));
     let Some(extension) = Object::new(doc, value, || format!("/extensions/{NAME}"))? else {
         return Ok(Vec::new());

@@ -78,7 +78,7 @@ pub(super) fn of_scene(scene: &Scene, geometry: &GeometryInfo, bounds: Option<[V
     let mut hints = Vec::new();
     if geometry.drawn_triangles == 0 {
         hints.push(HintKind::NothingDrawn.says(nothing_drawn(geometry)));
-    } else if !light_kinds(scene).any() {
+    } else if !light_kinds(scene).any() && !all_unlit(scene) {
         hints.push(HintKind::NoLight.says("nothing in the scene gives light"));
     }
     if 2 * geometry.degenerate_triangles > geometry.triangles {
@@ -90,6 +90,13 @@ pub(super) fn of_scene(scene: &Scene, geometry: &GeometryInfo, bounds: Option<[V
     hints.extend(invisible(scene));
     hints.extend(missing_tex_coords(scene));
     hints
+}
+
+/// Whether all that is drawn shows itself without light.
+fn all_unlit(scene: &Scene) -> bool {
+    let unlit =
+        |p: &Primitive| p.material.and_then(|m| scene.materials.get(m.index())).is_some_and(|m| m.unlit);
+    drawn_primitives(scene).all(|(_, p)| unlit(p))
 }
 
 fn nothing_drawn(geometry: &GeometryInfo) -> &'static str {

@@ -7,6 +7,8 @@ mod count;
 mod hints;
 mod lobes;
 mod probe;
+#[cfg(test)]
+mod tests;
 mod view;
 
 pub use hints::{Hint, HintKind};

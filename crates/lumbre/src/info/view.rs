@@ -31,15 +31,35 @@ pub(super) fn hints(scene: &Scene, backend: &CpuBackend) -> Vec<Hint> {
     } else {
         (0..count.min(MOST)).map(CameraChoice::Index).collect()
     };
-    let mut hints = Vec::new();
+    let mut found = Vec::new();
     for choice in choices {
         let Some((camera, name)) = find(scene, backend.scene(), choice) else { continue };
-        let eye = Eye { scene, backend, camera, name };
-        hints.extend(eye.in_view().or_else(|| eye.lit()));
-        hints.extend(eye.inside());
+        let eye = Eye { scene, backend, camera };
+        let remarks = [eye.in_view().or_else(|| eye.lit()), eye.inside()];
+        found.extend(remarks.into_iter().flatten().map(|remark| (remark, name.clone())));
     }
+    let mut hints = merged(found);
     hints.extend(lamps_inside(scene, backend));
     hints
+}
+
+/// What is to be said about a camera: `{}` stands for its name.
+type Remark = (HintKind, String);
+
+/// One hint for all cameras about which the same is to be said.
+fn merged(found: Vec<(Remark, String)>) -> Vec<Hint> {
+    let mut groups: Vec<(Remark, String, usize)> = Vec::new();
+    for (remark, name) in found {
+        match groups.iter_mut().find(|(known, ..)| *known == remark) {
+            Some((.., count)) => *count += 1,
+            None => groups.push((remark, name, 1)),
+        }
+    }
+    let hint = |((kind, what), name, count): (Remark, String, usize)| {
+        let others = if count > 1 { format!(" (and {} more)", count - 1) } else { String::new() };
+        kind.says(what.replacen("{}", &format!("{name}{others}"), 1))
+    };
+    groups.into_iter().map(hint).collect()
 }
 
 /// A camera in the shape that it was framed for, and what to call it.
@@ -59,7 +79,6 @@ struct Eye<'a> {
     scene: &'a Scene,
     backend: &'a CpuBackend,
     camera: Camera,
-    name: String,
 }
 
 /// What the rays through the middles of the pixels meet.
@@ -95,22 +114,18 @@ impl Eye<'_> {
     }
 
     /// Why nothing is seen, if so.
-    fn in_view(&self) -> Option<Hint> {
-        let name = &self.name;
-        match self.look() {
-            Seen { surfaces: 1.., .. } => None,
-            Seen { backs: 0, holes: 0, .. } => {
-                Some(HintKind::NothingInView.says(format!("{name} {}", self.misses())))
+    fn in_view(&self) -> Option<Remark> {
+        Some(match self.look() {
+            Seen { surfaces: 1.., .. } => return None,
+            Seen { backs: 0, holes: 0, .. } => (HintKind::NothingInView, format!("{{}} {}", self.misses())),
+            Seen { backs, holes, .. } if backs >= holes => {
+                let what = "{} sees only the back of single-sided surfaces, which is invisible";
+                (HintKind::BackFacesOnly, what.into())
             }
-            Seen { backs, holes, .. } if backs >= holes => Some(
-                HintKind::BackFacesOnly
-                    .says(format!("{name} sees only the back of single-sided surfaces, which is invisible")),
-            ),
-            _ => Some(
-                HintKind::InvisibleMaterial
-                    .says(format!("{name} sees only surfaces whose alpha lets every ray pass")),
-            ),
-        }
+            _ => {
+                (HintKind::InvisibleMaterial, "{} sees only surfaces whose alpha lets every ray pass".into())
+            }
+        })
     }
 
     /// How it misses the scene.
@@ -140,7 +155,7 @@ impl Eye<'_> {
     }
 
     /// Whether light comes to what is seen.
-    fn lit(&self) -> Option<Hint> {
+    fn lit(&self) -> Option<Remark> {
         let kinds = light_kinds(self.scene);
         if !kinds.any() {
             return None;
@@ -148,37 +163,49 @@ impl Eye<'_> {
         let mut film = Film::new(SIZE[0], SIZE[1]);
         let view = View { camera: self.camera, settings: RenderSettings::default(), frame: 0 };
         self.backend.render(&view, 0..SAMPLES, &mut film, &());
-        let name = &self.name;
         if is_black(&film) {
-            let what = format!("all that {name} sees is black: the light of the scene does not come there");
-            return Some(HintKind::AllBlack.says(what));
+            let what = "all that {} sees is black: the light does not come there, or is far too faint";
+            return Some((HintKind::AllBlack, what.into()));
         }
-        let surfaces = film.pixels().iter().filter(|p| p.coverage() > 0.0);
-        let mut luminances: Vec<f32> = surfaces.map(|p| p.radiance().luminance()).collect();
-        luminances.sort_by(f32::total_cmp);
-        let (median, most) = (luminances.get(luminances.len() / 2)?, luminances.last()?);
+        let mut blocks = blocks(&film);
+        blocks.sort_by(f32::total_cmp);
+        let (median, most) = (blocks.get(blocks.len() / 2)?, blocks.last()?);
         (kinds.only_emissive() && *median < FAINT * most).then(|| {
-            HintKind::FaintEmission.says(format!(
-                "emissive surfaces are the only light, and most of what {name} sees is {} times darker than they are",
-                if *median > 0.0 { format!("{:.0}", most / median) } else { "countless".into() }
-            ))
+            let what = "surfaces that emit are the only light, and hardly light what {} sees besides them";
+            (HintKind::FaintEmission, what.into())
         })
     }
 
     /// Whether it stands inside a closed mesh that is not the whole scene, or one whose walls it cannot see.
-    fn inside(&self) -> Option<Hint> {
+    fn inside(&self) -> Option<Remark> {
         let compiled = self.backend.scene();
         let instance = enclosing(self.backend, self.camera.origin, |_| false)?;
         let mesh = compiled.meshes[compiled.instances[instance as usize].mesh as usize];
         if share(compiled, instance) > WHOLE && mesh.culls == 0 {
             return None;
         }
-        let what = format!("{} stands inside {}", self.name, place(self.scene, compiled, instance));
-        Some(HintKind::CameraInside.says(what))
+        let mesh = place(self.scene, compiled, instance);
+        Some((HintKind::CameraInside, format!("{{}} stands inside {mesh}")))
     }
 }
 
-/// A median below this share of the brightest pixel is nearly black when that pixel is not.
+/// Side of the blocks of pixels that are averaged: single ones are noisy at so few samples.
+const BLOCK: u32 = 3;
+
+/// Mean luminances of the blocks of a picture in which surfaces are seen.
+fn blocks(film: &Film) -> Vec<f32> {
+    let columns = SIZE[0] / BLOCK;
+    let mean = |block: u32| {
+        let [x, y] = [block % columns * BLOCK, block / columns * BLOCK];
+        let pixels = (0..BLOCK * BLOCK).map(|i| film.pixel(x + i % BLOCK, y + i / BLOCK));
+        let surfaces = pixels.filter(|p| p.coverage() > 0.0).map(|p| p.radiance().luminance());
+        let (sum, count) = surfaces.fold((0.0, 0u32), |(sum, count), y| (sum + y, count + 1));
+        (count > 0).then(|| sum / count as f32)
+    };
+    (0..columns * (SIZE[1] / BLOCK)).filter_map(mean).collect()
+}
+
+/// A median below this share of the brightest block is nearly black when that block is not.
 const FAINT: f32 = 1e-3;
 /// From this share of the size of the scene on, a mesh is a room or a sky rather than a thing in it.
 const WHOLE: f32 = 0.8;
