@@ -57,6 +57,68 @@ fn every_gltf_opens() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// The scenes of the second thesis with their triangles, and the most warnings each may give.
+const OBJ_SCENES: &[(&str, usize, usize)] = &[
+    ("Medieval_building", 16_715, 0),
+    ("cornell_box_empty_co", 12, 0),
+    ("cornell_box_empty_rg", 12, 0),
+    ("cornell_box_empty_white", 12, 0),
+    ("cornell_box_glossy", 1_112, 0),
+    ("cornell_box_iow", 1_110, 0),
+    ("cornell_box_mirror", 36, 0),
+    ("cornell_box_original", 36, 0),
+    ("cornell_box_saturada", 36, 0),
+    ("cornell_box_sphere", 2_188, 0),
+    ("cube", 12, 1),
+    ("cube_modif", 12, 1),
+    ("cube_multi", 12, 0),
+    ("cube_no_diffuse", 12, 1),
+    ("cubes", 26, 0),
+    ("plane", 2, 1),
+    ("seahorse", 1_304, 0),
+    ("sphere", 8_318, 1),
+    ("water", 4_900, 1),
+    ("wolf", 956, 0),
+    ("wuson", 3_732, 1),
+    ("wuson_transparent", 3_732, 1),
+];
+
+#[test]
+fn every_obj_of_the_second_thesis_opens() {
+    let Some(folder) = scenes_folder() else { return };
+    let folder = folder.join("asmilex-obj");
+    let options = LoadOptions { asset_dirs: vec![folder.join("textures")], ..LoadOptions::default() };
+    let mut seen = 0;
+    for (name, count, warnings) in OBJ_SCENES {
+        let loaded = load_scene(folder.join("scenes").join(format!("{name}.obj")), &options)
+            .unwrap_or_else(|e| panic!("{e}"));
+        println!("{name}: {} triangles", triangles(&loaded.scene));
+        loaded.warnings.iter().for_each(|w| println!("    {w}"));
+        assert_eq!(triangles(&loaded.scene), *count, "{name}");
+        assert_eq!(loaded.warnings.len(), *warnings, "{name}");
+        lumbre_scene::compile(&loaded.scene).unwrap();
+        let glows = loaded.scene.materials.iter().any(|m| m.emission.max_component() > 1.0);
+        assert_eq!(glows, name.starts_with("cornell"), "{name}");
+        seen += 1;
+    }
+    let all = std::fs::read_dir(folder.join("scenes")).unwrap();
+    let all = all.filter(|e| e.as_ref().unwrap().path().extension().is_some_and(|e| e == "obj")).count();
+    assert_eq!(seen, all, "scenes that are not in the table");
+}
+
+/// Its MTL names the textures by their file names; they lie in a folder of their own.
+#[test]
+fn textures_of_the_medieval_building_lie_elsewhere() {
+    let Some(folder) = scenes_folder() else { return };
+    let folder = folder.join("asmilex-obj");
+    let path = folder.join("scenes/Medieval_building.obj");
+    let loaded = load_scene(&path, &LoadOptions::default()).unwrap();
+    assert_eq!((loaded.scene.images.len(), loaded.warnings.len()), (0, 7));
+    let options = LoadOptions { asset_dirs: vec![folder.join("textures")], ..LoadOptions::default() };
+    let loaded = load_scene(&path, &options).unwrap();
+    assert_eq!((loaded.scene.images.len(), loaded.warnings.len()), (7, 0));
+}
+
 #[test]
 fn sponza_has_all_its_parts() {
     let Some(folder) = scenes_folder() else { return };
