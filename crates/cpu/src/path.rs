@@ -187,10 +187,19 @@ impl<O: PathObserver> Path<'_, '_, O> {
     /// True when the surface is a shadow catcher seen straight from the camera: the path has then moved on behind it.
     #[inline]
     fn passes_catcher(&mut self, it: &Interaction) -> bool {
-        let material = &self.tracer.scene.materials[it.material as usize];
-        if !material.has(flag::SHADOW_CATCHER) || !self.straight || self.caught == MOST_CATCHERS {
+        if !self.straight {
             return false;
         }
+        let material = &self.tracer.scene.materials[it.material as usize];
+        if !material.has(flag::SHADOW_CATCHER) || self.caught == MOST_CATCHERS {
+            return false;
+        }
+        self.pass_catcher(it);
+        true
+    }
+
+    #[cold]
+    fn pass_catcher(&mut self, it: &Interaction) {
         let catcher = Catcher {
             it,
             passed: self.caught,
@@ -204,7 +213,6 @@ impl<O: PathObserver> Path<'_, '_, O> {
         self.beta *= caught.share;
         self.caught += 1;
         self.ray = Ray::new(it.leave(self.ray.dir), self.ray.dir, self.ray.time);
-        true
     }
 
     fn end(&mut self, reason: &'static str, first_hit: Option<FirstHit>) -> Option<FirstHit> {
@@ -295,21 +303,20 @@ impl<O: PathObserver> Path<'_, '_, O> {
         if reflects != (wi_local.z > 0.0) {
             return;
         }
-        let (f, pdf_bsdf) = surface.bsdf.eval_pdf(wo_local, wi_local, TransportMode::Radiance);
+        let (mut f, pdf_bsdf) = surface.bsdf.eval_pdf(wo_local, wi_local, TransportMode::Radiance);
         if f.is_black() {
             return;
+        }
+        // Light that crosses here into a solid that disperses has the wavelength that the path would take.
+        if let Some(takes) = surface.takes.filter(|t| !reflects && !t.on_arrival) {
+            f *= takes.wavelength.weight;
         }
         let Arriving { share: transmittance, through_solid } =
             self.light_transmittance(it, surface, &light, reflects);
         // Scattered rays do not find this light, or leave it out.
         let alone = light.is_delta || through_solid;
         let mis_weight = if alone { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
-        // Light that crosses here into a solid that disperses has the wavelength that the path would take.
-        let hue = match &surface.takes {
-            Some(takes) if !reflects && !takes.on_arrival => takes.wavelength.weight,
-            _ => Spectrum::WHITE,
-        };
-        let contribution = self.beta * f * hue * light.radiance * transmittance * (mis_weight / light.pdf);
+        let contribution = self.beta * f * light.radiance * transmittance * (mis_weight / light.pdf);
         self.radiance += contribution;
         self.observer.event(PathEvent::Light {
             light: light.light,
@@ -331,10 +338,8 @@ impl<O: PathObserver> Path<'_, '_, O> {
     ) -> Arriving {
         let mut media = self.media;
         let mut wavelength = self.wavelength;
-        if !reflects {
-            if let Some(beyond) = surface.beyond {
-                media.cross(beyond, it.material, it.front);
-            }
+        if let Some(beyond) = surface.beyond.filter(|_| !reflects) {
+            media.cross(beyond, it.material, it.front);
             wavelength = wavelength.or(surface.takes.map(|t| t.wavelength.nm));
         }
         let time = self.ray.time;

@@ -85,6 +85,7 @@ const MOST_SURFACES: u32 = 64;
 impl Tracer<'_> {
     /// The line to a light from a vertex with `depth` scattering events before it, inside `media`; for paths of no particular moment
     /// and wavelength.
+    #[inline]
     pub fn shadow_ray(
         &self,
         it: &Interaction,

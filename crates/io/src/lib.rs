@@ -13,8 +13,10 @@ mod image;
 mod limits;
 mod obj;
 mod open;
+mod ply;
 mod polygon;
 mod resolver;
+mod stl;
 mod warnings;
 
 pub use describe::{Description, UsedExtension, describe_scene};

@@ -1,7 +1,7 @@
 //! Opens a scene, whatever its format.
 
 use crate::describe::Description;
-use crate::{IoError, Limits, files, gltf, obj};
+use crate::{IoError, Limits, files, gltf, obj, ply, stl};
 use lumbre_scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -40,7 +40,7 @@ pub struct Loaded {
 }
 
 /// What [`load_scene`] opens, for messages.
-pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj)";
+pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj), PLY (.ply), STL (.stl)";
 
 /// Loads a scene. The format is told by the first bytes, then by the extension.
 ///
@@ -54,6 +54,8 @@ pub fn load_scene(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loade
         Format::Glb => gltf::load_glb(path, bytes, options),
         Format::Gltf => gltf::load_json(path, &bytes, options),
         Format::Obj => obj::load(path, &bytes, options),
+        Format::Ply => ply::load(path, &bytes, options),
+        Format::Stl => stl::load(path, &bytes, options),
     }
 }
 
@@ -63,6 +65,8 @@ pub(crate) enum Format {
     Glb,
     Gltf,
     Obj,
+    Ply,
+    Stl,
 }
 
 impl Format {
@@ -76,6 +80,8 @@ impl Format {
         match self {
             Format::Glb | Format::Gltf => gltf::describe(path, bytes, options),
             Format::Obj => Ok(Description::plain("Wavefront OBJ", bytes)),
+            Format::Ply => Ok(Description::plain("Stanford PLY", bytes)),
+            Format::Stl => Ok(Description::plain("STL", bytes)),
         }
     }
 }
@@ -85,10 +91,15 @@ pub(crate) fn format_of(path: &Path, bytes: &[u8]) -> Result<Format, IoError> {
     if bytes.starts_with(b"glTF") {
         return Ok(Format::Glb);
     }
+    if ply::is_ply(bytes) {
+        return Ok(Format::Ply);
+    }
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     match extension.as_str() {
         "gltf" => Ok(Format::Gltf),
         "obj" => Ok(Format::Obj),
+        "ply" => Ok(Format::Ply),
+        "stl" => Ok(Format::Stl),
         "glb" => Err(IoError::data(path, "byte 0", "not a binary glTF: it does not begin with `glTF`")),
         _ => Err(IoError::unsupported(
             path,

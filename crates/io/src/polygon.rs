@@ -6,6 +6,9 @@ use glam::Vec3;
 /// take hours.
 const STEPS_PER_CORNER: usize = 2048;
 
+/// The warning where it returns false.
+pub(crate) const CROSSING: &str = "a face that crosses itself is cut into triangles as well as it can be";
+
 /// Triangulates a polygon of at least four corners, which need not lie quite in a plane, and keeps its winding. Indices of
 /// its corners, three to a triangle, are added to `out`: always two triangles less than corners. False when no ear could be
 /// found at the end (a polygon that crosses itself): the rest is then a fan.

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Gltf, png};
-use lumbre_io::{ErrorKind, Limits, LoadOptions, load_scene};
+use lumbre_io::{ErrorKind, Limits, LoadOptions, SCENE_FORMATS, load_scene};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -289,8 +289,8 @@ fn files_that_are_no_scenes() {
     assert_eq!(load("e.gltf", first), "/asset/version: not supported: glTF version \"1.0\"");
     assert_eq!(load("f.glb", b"nothing"), "byte 0: not a binary glTF: it does not begin with `glTF`");
     assert_eq!(
-        load("g.obj", b"v 0 0 0"),
-        "not supported: scenes of the kind .obj; what opens: glTF 2.0 (.gltf, .glb)"
+        load("g.fbx", b"v 0 0 0"),
+        format!("not supported: scenes of the kind .fbx; what opens: {SCENE_FORMATS}")
     );
     assert_eq!(load("h.glb", b"glTF\x01\0\0\0"), "byte 4: not supported: glTF container version 1");
     let e = load_scene(folder.path().join("none.gltf"), &LoadOptions::default()).unwrap_err();

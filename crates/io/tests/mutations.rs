@@ -185,6 +185,81 @@ fn gltf_and_glb() {
     survive_with(change_numbers, "scene.json", text.as_bytes(), read);
 }
 
+/// Every statement of OBJ and of MTL, the pictures of the maps beside them.
+const OBJ: &str = "mtllib scene.mtl other.mtl\no a\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0\nv 0 1 0.5 \\\n 0 0 1\n\
+    v 2 2 0\nvt 0 0\nvt 1 0\nvt 0.5 1\nvn 0 0 1\nvn 0 1 0\ng b c\nusemtl m\ns 1\nf 1/1/1 2/2/1 3/3/2\n\
+    f -1/-1 -2/-2 -3/-3 -4/-1 -5/-3\nusemtl n\ns off\nf 1//1 2//2 4//1\nf 1 2 3 4 5\nl 1 2\np 1\n\
+    usemtl water\ns 2\nf 4 3 2\n";
+const MTL: &str = "newmtl m\nKd 0.5 0.4 0.3\nKs 0.1 0.2 0.3\nKe 1 2 3\nNs 32\nNi 1.5\nd 0.75\nillum 2\n\
+    map_Kd -s 2 3 -o 0.5 0.25 -clamp on a.png\nmap_d -imfchan r a.png\nmap_Ke a.png\nbump -bm 0.5 a.png\n\
+    newmtl n\nPr 0.5\nPm 1\nPc 0.5\nPcr 0.1\nPs 0.2\nmap_Pr a.png\nmap_Pm a.png\nnorm a.png\nTr 0.5\n\
+    newmtl water\nTf 0.5 0.5 0.5\nillum 7\n";
+
+#[test]
+fn obj_and_mtl() {
+    let options = LoadOptions { limits: limits(), ..LoadOptions::default() };
+    let beside =
+        |path: &Path, name: &str, bytes: &[u8]| std::fs::write(path.with_file_name(name), bytes).unwrap();
+    let picture = common::png(4, 4, &[77; 64]);
+    let read = |path: &Path| load_scene(path, &options).map(|l| lumbre_scene::compile(&l.scene).map(|_| ()));
+    for mutate in [mutate, change_numbers] {
+        let read_obj = |path: &Path| {
+            beside(path, "scene.mtl", MTL.as_bytes());
+            beside(path, "a.png", &picture);
+            read(path)
+        };
+        survive_with(mutate, "scene.obj", OBJ.as_bytes(), read_obj);
+        // A library never keeps a mesh from being drawn: what is counted as refused here is what it warns of.
+        let read_mtl = |path: &Path| {
+            beside(path, "scene.obj", OBJ.as_bytes());
+            beside(path, "a.png", &picture);
+            let loaded = load_scene(path.with_extension("obj"), &options)?;
+            lumbre_scene::compile(&loaded.scene).unwrap();
+            let told = loaded.warnings.len() > 3;
+            if told { load_scene(path.with_file_name("scene.none"), &options).map(|_| ()) } else { Ok(()) }
+        };
+        survive_with(mutate, "scene.mtl", MTL.as_bytes(), read_mtl);
+    }
+}
+
+#[test]
+fn ply_and_stl() {
+    let options = LoadOptions { limits: limits(), ..LoadOptions::default() };
+    let read = |path: &Path| load_scene(path, &options).map(|l| lumbre_scene::compile(&l.scene).map(|_| ()));
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+             property list uchar short odd\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n\
+             element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+    };
+    let rows = "0 0 0 1 7 1 2 3\n1 0 0 0 1 2 3\n1 1 0 2 7 7 1 2 3\n0 1 0 0 1 2 3\n3 0 1 2\n4 0 1 2 3\n";
+    let text = header("ascii") + rows;
+    survive("a.ply", text.as_bytes(), read);
+    survive_with(change_numbers, "a.ply", text.as_bytes(), read);
+    for (order, big) in [("binary_little_endian", false), ("binary_big_endian", true)] {
+        let mut bytes = header(order).into_bytes();
+        let word = |v: [u8; 4]| if big { [v[3], v[2], v[1], v[0]] } else { v };
+        for i in 0..4 {
+            let place = [(i % 2) as f32, (i / 2) as f32, 0.0];
+            place.iter().for_each(|v| bytes.extend(word(v.to_le_bytes())));
+            bytes.extend([1, 0, 9, 1, 2, 3]);
+        }
+        for face in [&[0, 1, 2][..], &[0, 1, 3, 2]] {
+            bytes.push(face.len() as u8);
+            face.iter().for_each(|v: &i32| bytes.extend(word(v.to_le_bytes())));
+        }
+        survive("b.ply", &bytes, read);
+    }
+    let facet =
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    survive("a.stl", format!("solid a\n{facet}{facet}endsolid\n").as_bytes(), read);
+    let mut binary = vec![b'x'; 80];
+    binary.extend(2u32.to_le_bytes());
+    binary.extend((0..100u8).map(|i| i % 3));
+    survive("b.stl", &binary, read);
+}
+
 #[test]
 fn png_and_jpeg() {
     let folder = tempfile::tempdir().unwrap();

@@ -22,7 +22,7 @@ const MIN_PROB: f32 = 1e-7;
 pub struct DielectricBase {
     diffuse: Diffuse,
     interface: Interface,
-    /// Mean of the base's albedo over the bands, for choosing the lobe.
+    /// Mean of the base's albedo over the bands, for choosing the lobe; not read without an interface.
     diffuse_mean: f32,
     /// 1 / (1 - Eavg), or 0 where the interface lets nothing through.
     scale: f32,
@@ -40,7 +40,8 @@ impl DielectricBase {
     /// A Lambert surface without an interface.
     #[inline]
     pub fn lambert(rho: Spectrum, sampling: DiffuseSampling) -> Self {
-        DielectricBase::new(Diffuse::lambert(rho, sampling), Interface::NONE)
+        let diffuse = Diffuse::lambert(rho, sampling);
+        DielectricBase { diffuse, interface: Interface::NONE, diffuse_mean: 0.0, scale: 1.0 }
     }
 
     /// True when nothing lies over the diffuse base.
@@ -155,8 +156,10 @@ impl DielectricBase {
     /// Notes the scale of radiance that crossed.
     #[inline]
     fn crossed(&self, sample: Option<BsdfSample>, mode: TransportMode) -> Option<BsdfSample> {
-        let sample = sample?;
-        let crossed = sample.lobe.is_transmission();
-        Some(BsdfSample { eta_scale: if crossed { self.diffuse.crossing(mode) } else { 1.0 }, ..sample })
+        let mut sample = sample?;
+        if sample.lobe == Lobe::DiffuseTransmission {
+            sample.eta_scale = self.diffuse.crossing(mode);
+        }
+        Some(sample)
     }
 }

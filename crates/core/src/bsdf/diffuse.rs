@@ -29,12 +29,22 @@ pub struct Diffuse {
     /// Scale of radiance that crosses: 1/eta².
     crossing: f32,
     sampling: DiffuseSampling,
+    /// Neither rough nor transmitting: Lambert's, and nothing above but ρ and the sampling is read.
+    plain: bool,
 }
 
 impl Diffuse {
     /// The base of a material whose clamped base colour is `rho`.
     #[inline]
     pub fn new(params: &BsdfParams, rho: Spectrum) -> Self {
+        if params.diffuse_roughness <= 0.0 && params.diffuse_transmission <= 0.0 {
+            return Diffuse::lambert(rho, params.diffuse_sampling);
+        }
+        Diffuse::general(params, rho)
+    }
+
+    #[cold]
+    fn general(params: &BsdfParams, rho: Spectrum) -> Self {
         let eta2 = if params.thin { 1.0 } else { params.eta * params.eta };
         let share = unit_interval(params.diffuse_transmission) * eta2.min(1.0);
         Diffuse {
@@ -44,6 +54,7 @@ impl Diffuse {
             roughness: unit_interval(params.diffuse_roughness),
             crossing: 1.0 / eta2,
             sampling: params.diffuse_sampling,
+            plain: false,
         }
     }
 
@@ -51,7 +62,7 @@ impl Diffuse {
     #[inline]
     pub fn lambert(rho: Spectrum, sampling: DiffuseSampling) -> Self {
         let transmitted = Spectrum::BLACK;
-        Diffuse { rho, transmitted, reflecting: 1.0, roughness: 0.0, crossing: 1.0, sampling }
+        Diffuse { rho, transmitted, reflecting: 1.0, roughness: 0.0, crossing: 1.0, sampling, plain: true }
     }
 
     /// The same with all that it scatters times `s` in [0, 1].
@@ -63,7 +74,7 @@ impl Diffuse {
     /// True for plain Lambert: `sample` does not look at the number that chooses a lobe.
     #[inline]
     pub fn is_lambert(&self) -> bool {
-        self.roughness == 0.0 && self.reflecting == 1.0
+        self.plain
     }
 
     /// How its Lambert parts are drawn.
@@ -88,7 +99,7 @@ impl Diffuse {
     /// Hemispherical albedo, both sides.
     #[inline]
     pub fn albedo(&self) -> Spectrum {
-        if self.is_lambert() { self.rho } else { self.reflected() + self.transmitted }
+        if self.plain { self.rho } else { self.reflected() + self.transmitted }
     }
 
     /// Scale of radiance that crosses.
@@ -111,15 +122,19 @@ impl Diffuse {
     }
 
     /// f · |cos θi| and the density of [`Diffuse::sample`], sr⁻¹. `wo.z > 0`.
-    #[inline]
+    #[inline(always)]
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
-        if self.is_lambert() {
-            return if wi.z > 0.0 {
-                (self.rho * lambert::eval(wi.z), self.sampling.pdf(wi.z))
-            } else {
-                (Spectrum::BLACK, 0.0)
-            };
+        if !self.plain {
+            self.eval_pdf_general(wo, wi, mode)
+        } else if wi.z > 0.0 {
+            (self.rho * lambert::eval(wi.z), self.sampling.pdf(wi.z))
+        } else {
+            (Spectrum::BLACK, 0.0)
         }
+    }
+
+    #[cold]
+    fn eval_pdf_general(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Spectrum, f32) {
         let p = self.prob_transmitted();
         if wi.z < 0.0 {
             let f = self.transmitted * (lambert::eval(-wi.z) * self.crossing(mode));
@@ -141,11 +156,13 @@ impl Diffuse {
     }
 
     /// Draws a direction.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Vec3 {
-        if self.is_lambert() {
-            return self.sampling.sample(u);
-        }
+        if self.plain { self.sampling.sample(u) } else { self.sample_general(wo, u_lobe, u) }
+    }
+
+    #[cold]
+    fn sample_general(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Vec3 {
         let p = self.prob_transmitted();
         if u_lobe < p {
             let wi = self.sampling.sample(u);

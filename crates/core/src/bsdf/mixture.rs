@@ -14,7 +14,7 @@ use super::metal::Metal;
 use super::phong::Phong;
 use super::thin::Thin;
 use super::thin_film::ThinFilm;
-use super::{BsdfParams, BsdfSample, TransportMode, unit_interval};
+use super::{BsdfParams, BsdfSample, GlossParams, TransportMode, unit_interval};
 use crate::fresnel::f0_from_ior;
 use crate::math::{ONE_MINUS_EPSILON, Vec3};
 use crate::rgb::Spectrum;
@@ -258,13 +258,18 @@ fn metal(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Mod
 fn base(params: &BsdfParams, base_color: Spectrum, rough: Option<Rough>) -> Model {
     let diffuse = Diffuse::new(params, base_color);
     if let Some(gloss) = &params.gloss {
-        return Model::Gloss(Phong::new(diffuse, gloss));
+        return phong(diffuse, gloss);
     }
     let specular = unit_interval(params.specular);
     let normal = f0_from_ior(params.ior);
     let f0 = params.specular_color.map(|c| unit_interval(normal * c));
     let interface = Interface::new(f0, specular, film(params, f0), rough);
     Model::Base(DielectricBase::new(diffuse, interface))
+}
+
+#[cold]
+fn phong(diffuse: Diffuse, gloss: &GlossParams) -> Model {
+    Model::Gloss(Phong::new(diffuse, gloss))
 }
 
 #[inline]

@@ -67,6 +67,7 @@ pub const GLTF_EXTENSIONS: &[GltfExtension] = &[
     full("KHR_meshopt_compression", "compressed buffers"),
     full("KHR_texture_basisu", "KTX2 textures"),
     full("KHR_texture_transform", "moved, turned and scaled textures"),
+    not_needed("KHR_xmp", "metadata"),
     not_needed("KHR_xmp_json_ld", "metadata"),
 ];
 

@@ -39,7 +39,7 @@ pub struct LoadedEnvironment {
 pub enum Range {
     /// Radiance of any size (EXR, HDR).
     Scene,
-    /// What a screen shows, black 0 to white 1 (PNG, JPEG).
+    /// What a screen shows, black 0 to white 1 (all others).
     Display,
 }
 
@@ -66,7 +66,8 @@ pub fn read_picture(
     Ok((ldr::decode_linear(&bytes, path, limits)?, Range::Display))
 }
 
-/// Reads a picture: EXR, Radiance HDR, or PNG and JPEG, whose sRGB curve is undone and whose alpha is ignored.
+/// Reads a picture: EXR, Radiance HDR, or PNG, JPEG, WebP, KTX2, BMP and TGA, whose sRGB curve is undone and whose alpha
+/// is ignored.
 /// `layer` names a layer of an EXR; `None` is the picture itself.
 ///
 /// # Errors

@@ -261,9 +261,10 @@ fn corner(word: &[u8], counts: [usize; 3]) -> Result<RawCorner, String> {
     let mut at = 0;
     for (i, (slot, here)) in out.iter_mut().zip(counts).enumerate() {
         let (value, end) = integer(word, at).ok_or_else(wrong)?;
-        let Some(value) = value.filter(|&v| v != 0) else {
+        let Some(index) = value.filter(|&v| v != 0) else {
             if i == 0 {
-                return Err(format!("{}: vertices are counted from 1", wrong()));
+                let why = if value.is_some() { ": vertices are counted from 1" } else { "" };
+                return Err(wrong() + why);
             }
             if end == word.len() {
                 return Ok(out);
@@ -272,8 +273,8 @@ fn corner(word: &[u8], counts: [usize; 3]) -> Result<RawCorner, String> {
             continue;
         };
         let kind = ["vertex", "texture coordinate", "normal"][i];
-        *slot = RawIndex::new(value, here)
-            .ok_or_else(|| format!("refers to {kind} {value}, which no file has"))?;
+        *slot = RawIndex::new(index, here)
+            .ok_or_else(|| format!("refers to {kind} {index}, which no file has"))?;
         if end == word.len() {
             return Ok(out);
         }

@@ -63,11 +63,7 @@ pub(super) fn triangulate(
         }
     }
     if crossing > 0 {
-        warnings.add_many(
-            "",
-            "a face that crosses itself is cut into triangles as well as it can be",
-            crossing,
-        );
+        warnings.add_many("", polygon::CROSSING, crossing);
     }
     Ok(out)
 }

@@ -1,6 +1,8 @@
 //! What the tests share: small glTFs made in memory, and where the large scenes lie.
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses a part of it")]
 
+pub mod texts;
+
 use base64::Engine;
 use lumbre_io::{IoError, LoadOptions, Loaded, load_scene};
 use serde_json::{Value, json};

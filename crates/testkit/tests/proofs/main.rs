@@ -2,8 +2,11 @@
 //! way, the rate of convergence, and estimators that must agree. One program, since linking it takes longer than running it.
 
 mod bits;
+mod catcher;
 mod convergence;
+mod dispersion;
 mod lens_and_filter;
 mod lights;
 mod references;
+mod sheets;
 mod transport;

@@ -16,12 +16,12 @@ use lumbre_scene::{
 use lumbre_testkit::measure::{self, Estimate, analytic_settings, film, grey, pinhole, prepare, radiance};
 use lumbre_testkit::shapes::{add, cuboid, inside_out, rectangle, smooth_icosphere};
 
-const ON: RenderSettings = RenderSettings { light_sampling: true, ..BASE };
+pub(super) const ON: RenderSettings = RenderSettings { light_sampling: true, ..BASE };
 const OFF: RenderSettings = RenderSettings { light_sampling: false, seed: 2, ..BASE };
 const ROULETTE: RenderSettings = RenderSettings { roulette: Some(1), seed: 3, ..BASE };
 
 /// Independent samples, depth of 12, no roulette, glass as it is.
-const BASE: RenderSettings = RenderSettings {
+pub(super) const BASE: RenderSettings = RenderSettings {
     max_depth: Some(12),
     roulette: None,
     sampler: lumbre_core::sampler::SamplerKind::Independent,
@@ -34,7 +34,7 @@ const BASE: RenderSettings = RenderSettings {
 };
 
 /// A picture's mean at a number of samples of 24 x 24 pixels.
-fn mean(backend: &CpuBackend, camera: Camera, settings: RenderSettings, spp: u32) -> Estimate {
+pub(super) fn mean(backend: &CpuBackend, camera: Camera, settings: RenderSettings, spp: u32) -> Estimate {
     measure::mean(&film(backend, camera, settings, 24, spp))
 }
 
@@ -44,7 +44,7 @@ fn apart(a: Estimate, b: Estimate) -> f64 {
 }
 
 /// Two ways to draw a picture give one mean within 4.5 standard errors, which are small enough that 3 % more would not.
-fn assert_same_mean(a: Estimate, b: Estimate, what: &str) {
+pub(super) fn assert_same_mean(a: Estimate, b: Estimate, what: &str) {
     println!(
         "{what}: {:.5} ± {:.5}, {:.5} ± {:.5}, {:.2} apart",
         a.mean,
@@ -60,18 +60,18 @@ fn assert_same_mean(a: Estimate, b: Estimate, what: &str) {
 }
 
 /// Light sampling and roulette change nothing but noise. `spp`: with and without light sampling.
-fn assert_ways_agree(scene: &Scene, camera: Camera, spp: [u32; 2], what: &str) {
+pub(super) fn assert_ways_agree(scene: &Scene, camera: Camera, spp: [u32; 2], what: &str) {
     let backend = prepare(scene);
     let on = mean(&backend, camera, ON, spp[0]);
     assert_same_mean(on, mean(&backend, camera, OFF, spp[1]), &format!("{what}, light sampling"));
     assert_same_mean(on, mean(&backend, camera, ROULETTE, spp[0]), &format!("{what}, roulette"));
 }
 
-fn floor(scene: &mut Scene, half: f32) {
+pub(super) fn floor(scene: &mut Scene, half: f32) {
     add(scene, rectangle(Vec3::ZERO, Vec3::Z * half, Vec3::X * half), Material::diffuse(grey(0.7)));
 }
 
-fn look_down() -> Camera {
+pub(super) fn look_down() -> Camera {
     pinhole(Vec3::new(0.6, 2.2, 5.0), Vec3::new(0.0, 0.6, 0.0), 0.35)
 }
 
@@ -90,7 +90,7 @@ fn glass_and_metal_under_a_sky() {
     assert_ways_agree(&scene, look_down(), [256, 512], "glass and metal under a sky");
 }
 
-fn lamp(scene: &mut Scene, centre: Vec3, half: f32, material: Material) {
+pub(super) fn lamp(scene: &mut Scene, centre: Vec3, half: f32, material: Material) {
     add(scene, rectangle(centre, Vec3::X * half, Vec3::Z * half), material);
 }
 
