@@ -1,5 +1,5 @@
-//! Damaged files: whatever bits are turned, swapped or cut, a reader returns; it neither panics nor hangs. The mutations
-//! are the same in every run.
+//! Damaged files: whatever bits are turned, swapped or cut, a reader returns; it neither panics nor hangs nor takes more than a
+//! gibibyte, within the limits that users have. The mutations are the same in every run.
 
 mod common;
 
@@ -11,8 +11,9 @@ use lumbre_io::{
 };
 use serde_json::{Value, json};
 use std::path::Path;
+use std::time::{Duration, Instant};
 
-/// Mutations of each file; set `LUMBRE_MUTATIONS` for more.
+/// Mutations of each file, of which there are some forty; set `LUMBRE_MUTATIONS` for more.
 fn rounds() -> u64 {
     std::env::var("LUMBRE_MUTATIONS").ok().and_then(|v| v.parse().ok()).unwrap_or(300)
 }
@@ -103,7 +104,10 @@ fn survive_with<T>(
     for i in 0..n {
         let bytes = mutate(original, &mut random);
         std::fs::write(&path, &bytes).unwrap();
+        let start = Instant::now();
         let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| read(&path)));
+        let took = start.elapsed();
+        assert!(took < MOST_TIME, "mutation {i} of {name} takes {took:?}");
         match result {
             Ok(Ok(_)) => {}
             Ok(Err(e)) => {
@@ -115,20 +119,27 @@ fn survive_with<T>(
             Err(_) => panic!("mutation {i} of {name} panics"),
         }
     }
-    println!("{name}: {refused} of {n} refused");
+    let peak = peak_memory();
+    println!("{name}: {refused} of {n} refused; {:.0?} MiB", peak.map(|b| b >> 20));
     assert!(refused > 0);
+    assert!(peak.unwrap_or(0) < MOST_MEMORY, "{name}: {peak:?} bytes");
 }
 
-/// Enough for the files here, so that a wrong size cannot make the test slow.
+/// Within this a reader returns.
+const MOST_TIME: Duration = Duration::from_secs(5);
+/// The process stays below this, all its tests at once.
+const MOST_MEMORY: u64 = 1 << 30;
+
+/// The most memory that the process has had so far, bytes; `None` where the system does not tell (all but Linux).
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse().ok().map(|kib: u64| kib << 10)
+}
+
+/// Those that users have: what a small damaged file can ask for must be bounded by its own size.
 fn limits() -> Limits {
-    Limits {
-        max_image_bytes: 16 << 20,
-        max_total_image_bytes: 32 << 20,
-        max_triangles: 1 << 20,
-        max_vertices: 1 << 20,
-        max_instances: 1 << 16,
-        ..Limits::default()
-    }
+    Limits::default()
 }
 
 fn rich_scene() -> Gltf {
