@@ -14,7 +14,7 @@ pub(crate) mod values;
 
 use clap::{Parser, Subcommand};
 
-/// A physically based renderer: opens glTF 2.0 scenes and traces the light through them.
+/// A physically based renderer: opens glTF 2.0 and OBJ scenes and traces the light through them.
 #[derive(Debug, Parser)]
 #[command(name = "lumbre", version, arg_required_else_help = true)]
 #[command(max_term_width = 110, after_help = EXAMPLES)]

@@ -34,7 +34,7 @@ Exit codes:
 /// Flags of `lumbre render`.
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
-    /// Scene to open: glTF 2.0 (.gltf, .glb).
+    /// Scene to open: glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj), PLY (.ply) or STL (.stl).
     #[arg(value_name = "SCENE")]
     pub(crate) scene: PathBuf,
     #[command(flatten)]
