@@ -13,8 +13,6 @@ use std::fmt::Write;
 /// Points of the quadrature along the height and the azimuth of the cap.
 const N_CAP: [usize; 2] = [224, 128];
 
-/// Taken from 1 - E, at most: what linear interpolation adds to it between nodes.
-const DEFICIT_MARGIN: f64 = 0.006;
 /// Added to B/E at the horizon of the most stretched surface: what interpolation may lack there.
 const SCHLICK_MARGIN: f64 = 0.04;
 
@@ -54,7 +52,7 @@ pub fn directional(w: [f64; 3], alpha: [f64; 2]) -> Albedo {
 /// The direction with the given profiles, cosines in [0, 1]; `sharp` keeps a trace of height where both are 0.
 fn direction(profiles: [f64; 2]) -> [f64; 3] {
     let [x, y] = profiles.map(|c| {
-        let c = c.clamp(1e-5, 1.0);
+        let c = c.clamp(1e-7, 1.0);
         (1.0 / (c * c) - 1.0).sqrt()
     });
     let z = 1.0 / (1.0 + x * x + y * y).sqrt();
@@ -80,6 +78,13 @@ pub fn node([i, j, k, l]: [usize; 4]) -> [f64; 2] {
     [deficit, there.schlick / (1.0 - there.deficit) - share_along(w, alpha)]
 }
 
+/// 1 - E less what linear interpolation adds to it between nodes: most, 0.01, where it is near 0.03 and curves, and the widths (`v`: share
+/// of the smaller one) are alike, which profiles describe least well.
+fn lowered(deficit: f64, v: f64) -> f64 {
+    let most = 0.02 + 0.015 * v;
+    deficit - most * deficit / (deficit + most) * 0.05 / (deficit + 0.05)
+}
+
 /// A node with its margins, in stored units.
 pub fn stored([i, j, k, l]: [usize; 4]) -> [i16; 2] {
     let [deficit, residual] = node([i, j, k, l]);
@@ -87,8 +92,7 @@ pub fn stored([i, j, k, l]: [usize; 4]) -> [i16; 2] {
     let alpha = alphas_at(at(i, 0), at(j, 1)).map(f64::sqrt);
     let mu = direction([cosine_at(at(k, 2), alpha[0]), cosine_at(at(l, 3), alpha[1])])[2];
     let margin = SCHLICK_MARGIN * (1.0 - at(j, 1)) * (1.0 - mu).powi(30);
-    [deficit * deficit / (deficit + DEFICIT_MARGIN), residual + margin]
-        .map(|v| (v / f64::from(UNIT)).round() as i16)
+    [lowered(deficit, at(j, 1)), residual + margin].map(|v| (v / f64::from(UNIT)).round() as i16)
 }
 
 /// Both tables and the averages of their interpolation.
@@ -228,15 +232,18 @@ mod tests {
     #[test]
     fn data_is_fresh() {
         for k in 0..150u32 {
-            let node = [0, 1, 2, 3].map(|d| (unit(k, d as u32) * SIZE[d] as f32) as usize);
+            // Where the larger width is the smallest there is no smaller one: the first row is left out.
+            let first = [1, 0, 0, 0];
+            let node =
+                [0, 1, 2, 3].map(|d| first[d] + (unit(k, d as u32) * (SIZE[d] - first[d]) as f32) as usize);
             let at = |d: usize| node[d] as f64 / (SIZE[d] - 1) as f64;
             let alpha = alphas_at(at(0), at(1));
             let ggx = Ggx { alpha_x: alpha[0] as f32, alpha_y: alpha[1] as f32 };
             let w = direction([cosine_at(at(2), alpha[0]), cosine_at(at(3), alpha[1])]);
             let got = AnisoRow::new(&ggx).deficit(to_vec3(w));
             let want = f32::from(stored(node)[0]) * UNIT;
-            // With both profiles at the horizon, or the smaller width that of the larger, positions lose digits.
-            let limit = if node[0] == 0 || node[2].min(node[3]) == 0 { 2e-3 } else { 3e-4 };
+            // With both profiles at the horizon positions lose digits.
+            let limit = if node[2].min(node[3]) == 0 { 2e-3 } else { 3e-4 };
             assert!((got - want).abs() < limit, "{node:?}: {got} {want}");
         }
     }
@@ -260,7 +267,7 @@ mod tests {
                 high[t] = high[t].max(off[t]);
             }
         }
-        assert!(low[0] > -0.013 && high[0] < 0.008, "deficit {} {}", low[0], high[0]);
+        assert!(low[0] > -0.014 && high[0] < 0.008, "deficit {} {}", low[0], high[0]);
         assert!(low[1] > -0.02 && high[1] < 0.11, "schlick {} {}", low[1], high[1]);
         // Tight: a table half a percent further off would be found.
         assert!(low[0] < -0.008 && high[0] > 0.003 && high[1] > 0.05, "{low:?} {high:?}");
@@ -286,13 +293,10 @@ mod tests {
             }
             let average = row.average();
             assert!(
-                (f64::from(average.deficit) / deficit - 1.0).abs() < 8e-3,
+                (f64::from(average.deficit) / deficit - 1.0).abs() < 1.5e-2,
                 "{alpha:?} {average:?} {deficit}"
             );
-            assert!(
-                (f64::from(average.schlick) / schlick - 1.0).abs() < 5e-3,
-                "{alpha:?} {average:?} {schlick}"
-            );
+            assert!((f64::from(average.schlick) - schlick).abs() < 5e-4, "{alpha:?} {average:?} {schlick}");
         }
     }
 }

@@ -59,56 +59,56 @@ fn which_scene(text: &str) -> Result<SceneChoice, String> {
 #[command(next_help_heading = "Limits on what a file may ask for")]
 pub(crate) struct LimitArgs {
     /// Bytes of one file, such as 4GiB. [default: 8GiB]
-    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true)]
+    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_file_bytes: Option<u64>,
 
     /// Bytes of a scene's JSON. [default: 256MiB]
-    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true)]
+    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_json_bytes: Option<u64>,
 
     /// Objects in a scene's JSON, of all kinds together. [default: 4194304]
-    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true)]
+    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_json_objects: Option<u64>,
 
     /// Lists and objects of a scene's JSON inside one another, up to 127. [default: 64]
-    #[arg(long, value_name = "N", hide_short_help = true)]
+    #[arg(long, value_name = "N", hide_short_help = true, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=Limits::JSON_DEPTH_BOUND))]
     pub(crate) max_json_depth: Option<u64>,
 
     /// Bytes of all buffers of a scene; also of all its encoded images. [default: 16GiB]
-    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true)]
+    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_buffer_bytes: Option<u64>,
 
     /// Columns or rows of an image. [default: 32768]
-    #[arg(long, value_name = "N", hide_short_help = true)]
+    #[arg(long, value_name = "N", hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_image_side: Option<u32>,
 
     /// Bytes of one image once decoded. [default: 4GiB]
-    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true)]
+    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_image_bytes: Option<u64>,
 
     /// Bytes of all images of a scene once decoded. [default: 16GiB]
-    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true)]
+    #[arg(long, value_name = "SIZE", value_parser = bytes, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_total_image_bytes: Option<u64>,
 
     /// Triangles, each mesh counted once. [default: 500000000]
-    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true)]
+    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_triangles: Option<u64>,
 
     /// Vertices, each mesh counted once. [default: 500000000]
-    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true)]
+    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_vertices: Option<u64>,
 
     /// Elements of a glTF accessor that has no data of its own. [default: 1048576]
-    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true)]
+    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_zero_filled: Option<u64>,
 
     /// Meshes that the nodes place in the world. [default: 16777216]
-    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true)]
+    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_instances: Option<u64>,
 
     /// Nodes beneath one another. [default: 1048576]
-    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true)]
+    #[arg(long, value_name = "N", value_parser = count, hide_short_help = true, allow_negative_numbers = true)]
     pub(crate) max_node_depth: Option<u64>,
 }
 

@@ -11,6 +11,7 @@ pub(super) fn of(report: &Report<'_>) -> String {
     let mut all = Map::new();
     all.insert("file".into(), json!(report.args.scene.to_string_lossy()));
     add(&mut all, file(&report.description));
+    all.insert("shown_scene".into(), json!(report.shown_scene()));
     if let Some(info) = &report.info {
         add(&mut all, scene(info));
         let Size(size) = report.args.size;

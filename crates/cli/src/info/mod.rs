@@ -9,7 +9,7 @@ use crate::flags::info::InfoArgs;
 use crate::flags::values::Size;
 use crate::{console, memory};
 use lumbre::core::Film;
-use lumbre::io::{Description, ErrorKind, describe_scene};
+use lumbre::io::{Description, ErrorKind, SceneChoice, describe_scene};
 use lumbre::{Device, InfoError, SceneInfo};
 
 /// Runs the command.
@@ -25,9 +25,9 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Code, Failure> {
             Ok(info) => (Some(info), None),
             Err(e) => (None, Some(e.into())),
         },
-        // What is damaged or not supported has a head that was read; what is not there is no scene.
-        Err(e) if e.kind() == ErrorKind::BadData => (None, Some(e.into())),
-        Err(e) => return Err(e.into()),
+        Err(e) if e.kind() == ErrorKind::BadChoice => return Err(e.into()),
+        // The head could be read, and may say why the rest could not.
+        Err(e) => (None, Some(e.into())),
     };
     let report = Report { args, description, info };
     console::result(if args.json { json::of(&report) } else { text::of(&report) })?;
@@ -52,6 +52,15 @@ struct Report<'a> {
 }
 
 impl Report<'_> {
+    /// The place of the scene that is looked at among those of the file.
+    fn shown_scene(&self) -> usize {
+        match self.args.loading.options().scene {
+            SceneChoice::Default => self.description.default_scene,
+            SceneChoice::Index(i) => i,
+            SceneChoice::Name(name) => self.description.scenes.iter().position(|n| *n == name).unwrap_or(0),
+        }
+    }
+
     /// Bytes of the film of a picture of the size asked for, and of writing the most demanding output.
     fn film_bytes(&self) -> u64 {
         let Size([width, height]) = self.args.size;

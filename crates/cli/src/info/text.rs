@@ -4,7 +4,7 @@ use super::{Report, advice};
 use crate::flags::values::Size;
 use crate::memory::human;
 use lumbre::core::math::Vec3;
-use lumbre::io::{Description, Support, UsedExtension, one_line};
+use lumbre::io::{Support, UsedExtension, one_line};
 use lumbre::scene::Projection;
 use lumbre::{SceneInfo, info};
 
@@ -16,7 +16,7 @@ const MOST: usize = 24;
 
 pub(super) fn of(report: &Report<'_>) -> String {
     let mut page = Page::default();
-    file(&mut page, &report.args.scene.to_string_lossy(), &report.description);
+    file(&mut page, report);
     if let Some(info) = &report.info {
         scene(&mut page, info);
         memory(&mut page, report, info);
@@ -25,7 +25,7 @@ pub(super) fn of(report: &Report<'_>) -> String {
         let lists = report.description.lists.iter().filter(|(_, count)| *count > 0);
         page.say(
             "lists",
-            &lists.map(|(what, count)| format!("{count} {what}")).collect::<Vec<_>>().join(", "),
+            &lists.map(|(what, count)| format!("{what} {count}")).collect::<Vec<_>>().join(", "),
         );
     }
     page.0.trim_end().to_string()
@@ -38,17 +38,17 @@ struct Page(String);
 impl Page {
     /// Text behind a word, broken between its words; nothing if it is empty.
     fn say(&mut self, word: &str, text: &str) {
-        self.hang(word, text, 0);
+        self.hang(word, text, [0, 0]);
     }
 
-    /// As `say`; all lines but the first are set in by so much more.
-    fn hang(&mut self, word: &str, text: &str, hang: usize) {
-        let mut line = format!("{word:<LEFT$}");
+    /// As `say`; the first line and those after it are set in by so much more.
+    fn hang(&mut self, word: &str, text: &str, [first, rest]: [usize; 2]) {
+        let mut line = format!("{word:<LEFT$}{:first$}", "");
         let mut begun = false;
         for part in one_line(text).split_inclusive(' ') {
             if begun && line.chars().count() + part.trim_end().chars().count() > WIDTH {
                 self.push(&line);
-                line = " ".repeat(LEFT + hang);
+                line = " ".repeat(LEFT + rest);
             }
             line.push_str(part);
             begun = true;
@@ -58,15 +58,16 @@ impl Page {
         }
     }
 
+    /// Adds a line. Blanks that are not to break it are common ones from now on.
     fn push(&mut self, line: &str) {
-        self.0.push_str(line.trim_end());
+        self.0.push_str(line.replace('\u{a0}', " ").trim_end());
         self.0.push('\n');
     }
 
     /// Rows of a list behind a word that stands once.
     fn list(&mut self, word: &str, rows: &[String]) {
         for (i, row) in rows.iter().take(MOST).enumerate() {
-            self.hang(if i == 0 { word } else { "" }, row, 4);
+            self.hang(if i == 0 { word } else { "" }, row, [0, 4]);
         }
         if rows.len() > MOST {
             self.say("", &format!("and {} more; --json lists all", rows.len() - MOST));
@@ -97,8 +98,9 @@ fn named(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("  {name}") }
 }
 
-fn file(page: &mut Page, name: &str, d: &Description) {
-    page.say("file", name);
+fn file(page: &mut Page, report: &Report<'_>) {
+    let d = &report.description;
+    page.say("file", &report.args.scene.to_string_lossy());
     let by = d.generator.as_ref().map_or_else(String::new, |g| format!(", made by {g}"));
     page.say("format", &format!("{}, {}{by}", d.format, human(d.file_bytes)));
     let extension = |e: &UsedExtension| {
@@ -114,8 +116,9 @@ fn file(page: &mut Page, name: &str, d: &Description) {
     };
     page.list("extensions", &d.extensions.iter().map(extension).collect::<Vec<_>>());
     if d.scenes.len() > 1 {
+        let shown = report.shown_scene();
         let scene = |(i, name): (usize, &String)| {
-            format!("{i}{}{}", named(name), if i == d.default_scene { "  (shown)" } else { "" })
+            format!("{i}{}{}", named(name), if i == shown { "  (shown)" } else { "" })
         };
         page.list("scenes", &d.scenes.iter().enumerate().map(scene).collect::<Vec<_>>());
     }
@@ -161,7 +164,7 @@ fn scene(page: &mut Page, info: &SceneInfo) {
 /// A number with four digits that count.
 fn short(v: f32) -> String {
     match v.abs() {
-        a if a == 0.0 => "0".into(),
+        0.0 => "0".into(),
         a if (0.001..1e6).contains(&a) => {
             let decimals = (3 - a.log10().floor() as i32).clamp(0, 6) as usize;
             let text = format!("{v:.decimals$}");
@@ -273,9 +276,9 @@ fn hints(page: &mut Page, info: &SceneInfo) {
         page.say("hints", "none");
     }
     for (i, hint) in info.hints.iter().enumerate() {
-        page.hang(if i == 0 { "hints" } else { "" }, &format!("- {}", hint.message), 2);
+        page.hang(if i == 0 { "hints" } else { "" }, &format!("- {}", hint.message), [0, 2]);
         if let Some(advice) = advice::on(hint.kind) {
-            page.hang("", &format!("\u{a0}\u{a0}→ {advice}"), 4);
+            page.hang("", &format!("→ {advice}"), [2, 4]);
         }
     }
 }

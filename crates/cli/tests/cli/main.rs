@@ -4,8 +4,10 @@
 mod camera;
 mod common;
 mod compare;
+mod info;
 mod interrupt;
 mod light;
+mod limits;
 mod loading;
 mod picture;
 mod replay;

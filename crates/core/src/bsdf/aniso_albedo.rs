@@ -7,7 +7,7 @@
 //! the isotropic surface that is as rough as this one is along the azimuth of the direction, which has the narrow part at grazing angles.
 //!
 //! The tables lean to the safe side, so that compensation and layering do not gain light: 1 - E is stored a little too small, B
-//! a little too large near the horizon. 1 - E lies between -0.013 and +0.008 of the truth, B between -0.02 and
+//! a little too large near the horizon. 1 - E lies between -0.014 and +0.008 of the truth, B between -0.02 and
 //! +0.11 (tested where the tables are made: testkit `aniso_tables`). Averages over the hemisphere are those of the interpolation.
 
 use super::albedo::{AlbedoRow, Directional, column};

@@ -50,8 +50,9 @@ impl Dielectric {
     ) -> Self {
         let spread = (eta - 1.0).abs();
         let rough = rough.map(|r| r.ggx).filter(|g| g.alpha_x * spread >= SMOOTH_SPREAD);
-        // Beside a rough axis the other is as smooth as digits allow.
-        let rough = rough.map(|g| Ggx { alpha_y: g.alpha_y.max(SMOOTH_SPREAD / spread), ..g });
+        // Beside a rough axis the other is as smooth as digits allow, the same from both sides.
+        let least = SMOOTH_SPREAD / spread * eta.max(1.0);
+        let rough = rough.map(|g| Ggx { alpha_y: g.alpha_y.max(least.min(g.alpha_x)), ..g });
         Dielectric { eta, eta_fresnel: eta_fresnel.unwrap_or(eta), film, tint, rough }
     }
 

@@ -1,15 +1,17 @@
 //! The interface over the diffuse base of an opaque dielectric: what it reflects, and what it leaves to the base.
 //!
 //! Plain, it reflects f0 + (f90 - f0)(1 - wo·m)⁵ (glTF appendix B, KHR_materials_specular), so its albedo E is known exactly
-//! from two tables ([`super::albedo`], [`super::aniso_albedo`]). A thin film ([`super::thin_film`]) follows no such law. Its albedo is estimated as
-//! that of reflectance 1 times its reflectance at one angle, that at which Schlick's weight is what the tables have as the mean over the
-//! facets: exact for a smooth interface and for any reflectance of Schlick's form.
+//! from two tables ([`super::albedo`], [`super::aniso_albedo`]). A thin film ([`super::thin_film`]) follows no such law: over a rough
+//! interface its albedo is taken as that of reflectance 1 times the mean over five visible facets, plus a margin, so that with the
+//! base beneath it nothing gains light. A white base under a film of index 1.2 to 2.4 and up to 1200 nm returns between 0.92 and 1.005 in the
+//! band of which the film reflects most (smooth: 0.995 to 1.003; tested: testkit `bsdf_films`).
 
 use super::albedo::Directional;
 use super::compensation::Rough;
 use super::thin_film::{self, ThinFilm};
 use crate::fresnel::{SCHLICK_AVERAGE, schlick};
-use crate::math::{PI, Vec3, pow, sin_cos};
+use crate::math::{PI, Vec3, sin_cos};
+use crate::microfacet::{Ggx, reflect};
 use crate::rgb::Spectrum;
 
 /// Azimuths over which a film on an anisotropic interface is averaged, in a quarter turn.
@@ -27,6 +29,12 @@ pub struct Interface {
     film: Option<ThinFilm>,
     rough: Option<Rough>,
 }
+
+/// Points of the unit square, a lattice, at which visible facets are drawn to average a film.
+const FACETS: [[f32; 2]; 5] = [[0.1, 0.1], [0.3, 0.5], [0.5, 0.9], [0.7, 0.3], [0.9, 0.7]];
+
+/// Added to the mean over [`FACETS`]: what it lacks at most, and a little.
+const MARGIN: f32 = 0.015;
 
 /// How the light of one direction is shared out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,16 +93,41 @@ impl Interface {
                 reflected: at.reflected(self.f0_mean, self.f90),
                 passed: at.passed(self.f0_max, self.f90),
             },
-            Some(_) => self.shares_of_film(at),
+            Some(_) => self.shares_of_film(at, w),
         }
     }
 
     #[inline(never)]
-    fn shares_of_film(&self, at: Directional) -> Shares {
+    fn shares_of_film(&self, at: Directional, w: Vec3) -> Shares {
+        let w = Vec3::new(w.x, w.y, w.z.abs());
+        let (f, most) = match &self.rough {
+            None => {
+                let f = self.reflectance(w.z);
+                (f, f.max_component())
+            }
+            Some(rough) => {
+                let f = self.mean_over_facets(&rough.ggx, w);
+                (f, (f.max_component() + MARGIN).min(1.0))
+            }
+        };
         let kept = 1.0 - at.deficit;
-        let weight = if kept > 0.0 { (at.schlick / kept).clamp(0.0, 1.0) } else { 0.0 };
-        let f = self.reflectance(1.0 - pow(weight, 0.2));
-        Shares { reflected: kept * f.average(), passed: at.deficit + kept * (1.0 - f.max_component()) }
+        Shares { reflected: kept * f.average(), passed: at.deficit + kept * (1.0 - most) }
+    }
+
+    /// Reflectance at visible facets, by what each reflects.
+    fn mean_over_facets(&self, ggx: &Ggx, w: Vec3) -> Spectrum {
+        let (mut sum, mut weights) = (Spectrum::BLACK, 0.0);
+        for u in FACETS {
+            let m = ggx.sample_visible_normal(w, u);
+            let wi = reflect(w, m);
+            if wi.z > 0.0 {
+                // G2/G1, Heitz 2018.
+                let weight = wi.z * (w.z + ggx.stretched_length(w)) * 2.0 * ggx.visibility(w, wi);
+                sum += self.reflectance(w.dot(m)) * weight;
+                weights += weight;
+            }
+        }
+        if weights > 0.0 { sum / weights } else { self.reflectance(w.z) }
     }
 
     /// What it passes, averaged over the hemisphere with the cosine.

@@ -52,6 +52,7 @@ pub(crate) struct Document {
     images: Vec<Value>,
     accessors: Vec<Value>,
     buffer_views: Vec<Value>,
+    variants: Vec<Value>,
     extensions: BTreeSet<String>,
     bytes: Vec<u8>,
 }
@@ -134,6 +135,31 @@ impl Document {
         self.nodes.push(node);
     }
 
+    /// Declares a variant of the scene (`KHR_materials_variants`).
+    pub(crate) fn variant(&mut self, name: &str) {
+        self.variants.push(json!({ "name": name }));
+        self.extensions.insert("KHR_materials_variants".into());
+    }
+
+    /// Adds a node that shows `geometry` in one of `materials` for each variant, in the first by default.
+    pub(crate) fn object_of_variants(
+        &mut self,
+        name: &str,
+        geometry: &Geometry,
+        materials: &[usize],
+        placement: &Placement,
+    ) {
+        assert_eq!(materials.len(), self.variants.len(), "one material for each variant");
+        self.object(name, geometry, materials[0], placement);
+        let mappings: Vec<Value> = materials
+            .iter()
+            .enumerate()
+            .map(|(variant, material)| json!({ "material": material, "variants": [variant] }))
+            .collect();
+        let mesh = self.meshes.last_mut().expect("just added");
+        mesh["primitives"][0]["extensions"] = json!({ "KHR_materials_variants": { "mappings": mappings } });
+    }
+
     /// Adds a camera at `eye` that looks at `target`, +y up in the picture; `aspect` is width over height.
     pub(crate) fn camera(&mut self, eye: DVec3, target: DVec3, yfov_deg: f64, aspect: f64) {
         let back = (eye - target).normalize();
@@ -178,6 +204,10 @@ impl Document {
                 .filter(|(_, array)| !array.is_empty())
                 .map(|(name, array)| (name.into(), json!(array))),
         );
+        if !self.variants.is_empty() {
+            let variants = json!({ "KHR_materials_variants": { "variants": self.variants } });
+            root.insert("extensions".into(), variants);
+        }
         if !self.extensions.is_empty() {
             root.insert("extensionsUsed".into(), json!(self.extensions));
         }

@@ -5,8 +5,10 @@
 
 mod cornell;
 mod glb;
+mod leaves;
 mod mesh;
 mod png;
+mod prism;
 mod shapes;
 mod smooth;
 mod tile;
@@ -24,6 +26,8 @@ struct SceneFile {
 fn all_scenes() -> Vec<SceneFile> {
     vec![
         SceneFile { name: "cornell.glb", bytes: cornell::cornell() },
+        SceneFile { name: "leaves.gltf", bytes: leaves::leaves() },
+        SceneFile { name: "prism.gltf", bytes: prism::prism() },
         SceneFile { name: "smooth.gltf", bytes: smooth::smooth() },
     ]
 }

@@ -15,6 +15,19 @@ pub(crate) fn rectangle(corner: DVec3, u: DVec3, v: DVec3) -> Mesh {
     mesh
 }
 
+/// A body of flat convex faces, each given counter-clockwise seen from outside.
+pub(crate) fn faceted(faces: &[Vec<DVec3>]) -> Mesh {
+    let mut mesh = Mesh::default();
+    for face in faces {
+        let n = (face[1] - face[0]).cross(face[2] - face[0]);
+        let corners: Vec<u16> = face.iter().map(|p| mesh.push(*p, n)).collect();
+        for pair in corners[1..].windows(2) {
+            mesh.triangles.push([corners[0], pair[0], pair[1]]);
+        }
+    }
+    mesh
+}
+
 /// A box of half extents `half` around the origin whose edges and corners are rounded with `radius`, in `steps` segments per
 /// eighth of a turn. Its vertices are those of a cube sphere whose eight octants were pulled apart.
 pub(crate) fn rounded_box(half: DVec3, radius: f64, steps: usize) -> Mesh {
