@@ -22,11 +22,13 @@ const MAX_DEPTH: u32 = 6;
 pub struct Grid {
     /// Pole of the grid, unit: place it where the density is narrow.
     pub axis: Vec3,
-    /// Bins by angle from the axis; edges at cos θ = 1 - 2 sᵖ, s equidistant.
+    /// Height (1 - cos θ)/2 of the ring where the density is narrow: 0 is the pole.
+    pub ring: f64,
+    /// Bins by angle from the axis; edges at heights (1 - cos θ)/2 = sᵖ, s equidistant, or mirrored about the ring, half of them on each side.
     pub n_theta: usize,
     /// Bins by azimuth, equidistant.
     pub n_phi: usize,
-    /// p: 1 gives equal areas, larger values crowd the bins at the pole.
+    /// p: 1 gives equal areas, larger values crowd the bins at the ring.
     pub power: f64,
     /// Halvings of a bin at least when the density is integrated: a few for densities with edges, which may cut a corner off a bin
     /// that coarse points miss.
@@ -36,11 +38,16 @@ pub struct Grid {
 impl Grid {
     /// Equal-area bins for broad densities about +z.
     pub fn broad() -> Self {
-        Grid { axis: Vec3::Z, n_theta: 40, n_phi: 40, power: 1.0, halvings: 0 }
+        Grid { axis: Vec3::Z, ring: 0.0, n_theta: 40, n_phi: 40, power: 1.0, halvings: 0 }
     }
     /// Bins that crowd about `axis`, the more the larger `power`.
     pub fn about(axis: Vec3, power: f64) -> Self {
-        Grid { axis: axis.normalize(), n_theta: 48, n_phi: 24, power, halvings: 0 }
+        Grid { axis: axis.normalize(), ring: 0.0, n_theta: 48, n_phi: 24, power, halvings: 0 }
+    }
+
+    /// Bins that crowd about the cone of directions with the cosine `cos` to `axis`.
+    pub fn about_cone(axis: Vec3, cos: f64, power: f64) -> Self {
+        Grid { axis: axis.normalize(), ring: 0.5 - 0.5 * cos, n_theta: 48, n_phi: 40, power, halvings: 0 }
     }
 
     /// The same for a density that ends at edges.
@@ -58,11 +65,34 @@ impl Grid {
         let tangent2 = f64::from(local.x).powi(2) + f64::from(local.y).powi(2);
         let z = f64::from(local.z);
         let below = if z > 0.0 { tangent2 / (2.0 * (1.0 + z)) } else { (1.0 - z) / 2.0 };
-        let s = below.clamp(0.0, 1.0).powf(1.0 / self.power);
+        let s = self.position(below.clamp(0.0, 1.0));
         let phi = f64::from(local.y).atan2(f64::from(local.x)) / (2.0 * PI);
         let i = ((s * self.n_theta as f64) as usize).min(self.n_theta - 1);
         let j = ((phi.rem_euclid(1.0) * self.n_phi as f64) as usize).min(self.n_phi - 1);
         i * self.n_phi + j
+    }
+
+    /// Where the ring lies among the bins.
+    fn middle(&self) -> f64 {
+        if self.ring > 0.0 { 0.5 } else { 0.0 }
+    }
+
+    /// Height at a position in [0, 1] among the bins, and its derivative.
+    fn height(&self, s: f64) -> (f64, f64) {
+        let middle = self.middle();
+        let (whole, part) = if s < middle { (-self.ring, middle) } else { (1.0 - self.ring, 1.0 - middle) };
+        let t = (s - middle).abs() / part;
+        let slope = self.power * whole.abs() / part * t.powf(self.power - 1.0);
+        (self.ring + whole * t.powf(self.power), slope)
+    }
+
+    /// The position of a height.
+    fn position(&self, below: f64) -> f64 {
+        let middle = self.middle();
+        if below < self.ring {
+            return middle - middle * ((self.ring - below) / self.ring).powf(1.0 / self.power);
+        }
+        middle + (1.0 - middle) * ((below - self.ring) / (1.0 - self.ring)).powf(1.0 / self.power)
     }
 
     /// Integral of `pdf` over one bin.
@@ -71,9 +101,8 @@ impl Grid {
         let (ds, dv) = (1.0 / self.n_theta as f64, 1.0 / self.n_phi as f64);
         // Integrand over the unit square of (s, azimuth / 2π).
         let integrand = |s: f64, v: f64| {
-            let below = s.powf(self.power);
-            // d cos θ = 2 p sᵖ⁻¹ ds.
-            let jacobian = 4.0 * PI * self.power * s.powf(self.power - 1.0);
+            let (below, slope) = self.height(s);
+            let jacobian = 4.0 * PI * slope;
             let (z, r) = (1.0 - 2.0 * below, 2.0 * (below * (1.0 - below)).max(0.0).sqrt());
             let (sp, cp) = (2.0 * PI * v).sin_cos();
             let w = frame.to_world(Vec3::new((r * cp) as f32, (r * sp) as f32, z as f32));
@@ -316,6 +345,21 @@ mod tests {
             },
         );
         assert!((r.integral - 1.0).abs() < 2e-3, "{r:?}");
+    }
+
+    #[test]
+    fn positions_invert_heights() {
+        for grid in [Grid::broad(), Grid::about(Vec3::Z, 4.0), Grid::about_cone(Vec3::Y, 0.3, 5.0)] {
+            for s in [0.0, 0.03, 0.3, 0.5, 0.77, 1.0] {
+                let (height, slope) = grid.height(s);
+                assert!(
+                    (grid.position(height) - s).abs() < 1e-4 && (0.0..=1.0).contains(&height),
+                    "{s} {height}"
+                );
+                let near = grid.height(s + 1e-6).0;
+                assert!(((near - height) / 1e-6 - slope).abs() < 1e-3, "{s} {slope}");
+            }
+        }
     }
 
     #[test]

@@ -53,10 +53,7 @@ fn chi_square(
 /// Bins suited to a row: equal areas where it is broad, crowded about the mirror and the refracted direction where it is narrow.
 fn grids(row: &Row, wo: Vec3) -> Vec<(Grid, Side)> {
     if row.params.anisotropy > 0.0 {
-        // The draws lie along the cone about y that the mirror direction is on, as narrow as the smaller width.
-        let narrow = Grid { axis: Vec3::Y, ..Grid::broad() }.with_edges();
-        let grid = if row.alpha() > 0.06 { Grid::broad() } else { narrow };
-        return vec![(grid, Side::Both)];
+        return grids_of_stretched(row, wo);
     }
     let alpha = f64::from(row.alpha());
     let eta = if row.params.thin { 1.0 } else { row.params.eta };
@@ -74,6 +71,28 @@ fn grids(row: &Row, wo: Vec3) -> Vec<(Grid, Side)> {
     let (fresnel, cos_t) = dielectric_refracted(wo.z, eta);
     if transmits && fresnel < 1.0 {
         out.push((narrow(refract(wo, Vec3::Z, cos_t, eta), alpha * bend), Side::Transmitted));
+    }
+    out
+}
+
+/// Facets stretched along x send light into a part of the cone about y that the mirror direction lies on, and the refracted one of
+/// its own; as narrow as the smaller width.
+fn grids_of_stretched(row: &Row, wo: Vec3) -> Vec<(Grid, Side)> {
+    let eta = if row.params.thin { 1.0 } else { row.params.eta };
+    let bend = if row.params.thin { 1.0 } else { f64::from(eta - 1.0).abs().min(1.0) };
+    let mut alpha = f64::from(row.alpha().max(ALPHA_SMOOTH));
+    if row.refracts() {
+        // As far as digits allow.
+        alpha = alpha.max(1e-4 / bend);
+    }
+    if alpha * bend > 0.06 || (alpha > 0.06 && row.params.transmission == 0.0) {
+        return vec![(Grid::broad(), Side::Both)];
+    }
+    let narrow = |cos: f32, width: f64| Grid::about_cone(Vec3::Y, f64::from(cos), width.ln() / 0.3f64.ln());
+    let mut out = vec![(narrow(-wo.y, alpha), Side::Reflected)];
+    if row.params.transmission > 0.0 {
+        let cos = if row.params.thin { wo.y } else { wo.y / eta };
+        out.push((narrow(-cos, alpha * bend), Side::Transmitted));
     }
     out
 }

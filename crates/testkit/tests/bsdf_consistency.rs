@@ -1,7 +1,9 @@
 //! Every surface: weight = eval / pdf, probabilities of delta lobes, reciprocity, adjoint transport, and finite values everywhere.
 
 use lumbre_core::Spectrum;
-use lumbre_core::bsdf::{Bsdf, BsdfParams, BsdfSample, CoatParams, GlossParams, SheenParams, TransportMode};
+use lumbre_core::bsdf::{
+    Bsdf, BsdfParams, BsdfSample, CoatParams, FilmParams, GlossParams, SheenParams, TransportMode,
+};
 use lumbre_core::hash::unit;
 use lumbre_core::math::Vec3;
 use lumbre_core::warp::uniform_sphere;
@@ -256,6 +258,12 @@ fn everything_is_finite_for_a_million_inputs() {
                 factor: c(21),
                 roughness: corner(k, 22, &[0.0, 0.031_622_777, 0.0317, 0.04, 1.0]),
                 normal: if k & 32 == 0 { Vec3::Z } else { direction(c(23), 6.3 * unit(k, 8)) },
+            }),
+            anisotropy: if k % 3 == 1 { c(24) } else { 0.0 },
+            film: (k % 5 == 1).then(|| FilmParams {
+                factor: c(25),
+                ior: 1.0 + 2.0 * c(26),
+                thickness_nm: corner(k, 27, &[0.0, 1e-6, 0.3, 1e9, f32::NAN]) * 1e3,
             }),
             diffuse_roughness: if k % 7 == 0 { c(17) } else { 0.0 },
             diffuse_transmission: if k % 11 == 0 { c(18) } else { 0.0 },
