@@ -9,7 +9,7 @@
 //! In [`TransportMode::Radiance`] what crosses is scaled by (ηi/ηt)² = 1/eta², as radiance is compressed into a narrower
 //! cone (Veach 1997, 5.2). Light scattered more than once between microfacets is left out, so a rough boundary loses light:
 //! the white furnace at ior 1.5, worst angle of either side, keeps at least 0.86 up to roughness 0.3, 0.78 at 0.5, 0.60 at 0.75, 0.35 at 1
-//! (tested: testkit `bsdf_energy`), and never gains any.
+//! (tested: testkit `bsdf/energy`), and never gains any.
 //!
 //! Where a path that carries all wavelengths enters a solid that disperses ([`crate::wavelength`]), directions follow the index at one wavelength,
 //! and Fresnel's law takes that of the d line: what is reflected there does not depend on the wavelength and keeps its colour.

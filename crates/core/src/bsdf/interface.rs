@@ -4,7 +4,7 @@
 //! from two tables ([`super::albedo`], [`super::aniso_albedo`]). A thin film ([`super::thin_film`]) follows no such law: over a rough
 //! interface its albedo is taken as that of reflectance 1 times the mean over five visible facets, plus a margin, so that with the
 //! base beneath it nothing gains light. A white base under a film of index 1.2 to 2.4 and up to 1200 nm returns between 0.92 and 1.005 in the
-//! band of which the film reflects most (smooth: 0.995 to 1.003; tested: testkit `bsdf_films`).
+//! band of which the film reflects most (smooth: 0.995 to 1.003; tested: testkit `bsdf/films`).
 
 use super::albedo::Directional;
 use super::compensation::Rough;

@@ -7,7 +7,7 @@
 //! is safe over every base is larger: a base may send all light of one direction into one other, and then the factor must not exceed t
 //! of either. Diffuse bases pay for that, by the amount that t at one angle lies above its mean: white Lambert returns 0.953 at least under varnish
 //! (seen from above; 1 at grazing angles), under white sheen 0.92 at roughness 0.3 and 0.855 at 0.7, its lowest (tested: testkit
-//! `bsdf_layers`). The product t(ωo) t(ωi) over its mean is exact for Lambert, and gains light over anything else.
+//! `bsdf/layers`). The product t(ωo) t(ωi) over its mean is exact for Lambert, and gains light over anything else.
 //!
 //! Layers lie on both sides of thin walls and of opaque surfaces, on the outside of solids: inside, they do not reflect, and what crosses is
 //! scaled by t at its outer direction. So the light that varnish turns back into a solid is lost: 3.4 % of what is inside clear glass of index

@@ -167,7 +167,7 @@ mod tests {
     }
 
     fn cases() -> Vec<serde_json::Value> {
-        serde_json::from_str(include_str!("../../tests/data/meshopt.json")).unwrap()
+        serde_json::from_str(include_str!("../../tests/io/data/meshopt.json")).unwrap()
     }
 
     /// Streams of meshoptimizer's own encoder, and what its own decoder makes of them. That one runs on vector units, which

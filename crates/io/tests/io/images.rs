@@ -1,7 +1,5 @@
 //! Pictures out and in again.
 
-mod common;
-
 use lumbre_core::Rgb;
 use lumbre_core::color::srgb_decode;
 use lumbre_io::{

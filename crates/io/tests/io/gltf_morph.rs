@@ -1,8 +1,6 @@
 //! Morph targets in the shape that they have at rest.
 
-mod common;
-
-use common::Gltf;
+use crate::common::Gltf;
 use glam::{Vec3, Vec4};
 use lumbre_io::{Limits, LoadOptions, load_scene};
 use lumbre_scene::MeshId;

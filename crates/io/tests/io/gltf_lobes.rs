@@ -1,8 +1,6 @@
 //! The lobes that extensions add to glTF's materials, and the older specular-glossiness model.
 
-mod common;
-
-use common::{Gltf, png};
+use crate::common::{Gltf, png};
 use lumbre_core::Rgb;
 use lumbre_io::{GLTF_EXTENSIONS, Limits, LoadOptions, load_scene};
 use lumbre_scene::{

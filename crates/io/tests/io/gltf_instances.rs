@@ -1,8 +1,6 @@
 //! Which part of a glTF is shown, and how often: scenes, variants, instances of a mesh.
 
-mod common;
-
-use common::Gltf;
+use crate::common::Gltf;
 use glam::{Mat4, Quat, Vec3};
 use lumbre_io::{ErrorKind, IoError, Limits, LoadOptions, Loaded, SceneChoice, load_scene};
 use lumbre_scene::{MaterialId, MeshId, NodeId, Scene};

@@ -1,8 +1,6 @@
 //! Geometry, nodes, cameras and lights of glTF: one tiny scene for each feature.
 
-mod common;
-
-use common::Gltf;
+use crate::common::Gltf;
 use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 use lumbre_core::Rgb;
 use lumbre_io::{LoadOptions, load_scene};

@@ -1,9 +1,7 @@
 //! What an MTL's materials mean.
 
-mod common;
-
-use common::png;
-use common::texts::{Folder, material, material_with, obj, scene_with};
+use crate::common::png;
+use crate::common::texts::{Folder, material, material_with, obj, scene_with};
 use lumbre_core::Rgb;
 use lumbre_scene::{AlphaMode, ImageId, Material, Wrap};
 

@@ -1,8 +1,6 @@
 //! The scenes of other people: each opens, and no extension in it is unknown.
 
-mod common;
-
-use common::{file_name, scenes_folder};
+use crate::common::{file_name, scenes_folder};
 use lumbre_io::{Limits, LoadOptions, load_scene, read_environment};
 use lumbre_scene::{AlphaMode, Projection, Scene};
 use std::path::{Path, PathBuf};

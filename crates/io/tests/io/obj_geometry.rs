@@ -1,8 +1,6 @@
 //! What an OBJ's geometry means: each feature on a file of a few lines.
 
-mod common;
-
-use common::texts::{Folder, obj, primitives};
+use crate::common::texts::{Folder, obj, primitives};
 use glam::{Vec2, Vec3, Vec4};
 use lumbre_core::Rgb;
 use lumbre_core::color::srgb_decode;

@@ -1,8 +1,6 @@
 //! Wrong and hostile glTFs: each ends in one line that names the file, the place and the reason.
 
-mod common;
-
-use common::{Gltf, png};
+use crate::common::{Gltf, png};
 use lumbre_io::{ErrorKind, Limits, LoadOptions, SCENE_FORMATS, load_scene};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -218,7 +216,7 @@ fn buffers_and_images() {
         "scene.gltf: /images/0: not an image of a known kind; PNG, JPEG, WebP, KTX2, BMP and TGA are read"
     );
     let cut = &png(8, 8, &[7; 256])[..40];
-    let uri = format!("data:;base64,{}", common::base64(cut));
+    let uri = format!("data:;base64,{}", crate::common::base64(cut));
     assert!(image(json!({"uri": uri})).starts_with("scene.gltf: /images/0: "));
 }
 

@@ -1,9 +1,7 @@
 //! Compressed meshes: streams of the formats' own encoders (`data/draco.json` by draco3d 1.5.9 and `data/meshopt.json` by
 //! meshoptimizer 1.3, each with what its own decoder makes of them), and scenes beside their uncompressed twins.
 
-mod common;
-
-use common::{Gltf, scenes_folder, unbase64};
+use crate::common::{Gltf, scenes_folder, unbase64};
 use glam::{Mat3, Vec2, Vec3};
 use lumbre_io::{LoadOptions, load_scene};
 use lumbre_scene::{Primitive, Scene};
@@ -11,7 +9,7 @@ use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// Where `common::meshopt_scene` puts the compressed view.
+/// Where `crate::common::meshopt_scene` puts the compressed view.
 const VIEW: usize = 2;
 
 fn floats(list: &Value) -> Vec<f32> {
@@ -23,7 +21,7 @@ fn draco_cases() -> Vec<Value> {
 }
 
 fn draco_scene(case: &Value) -> Gltf {
-    common::draco_scene(case, &unbase64(&case["stream"]))
+    crate::common::draco_scene(case, &unbase64(&case["stream"]))
 }
 
 #[test]
@@ -121,7 +119,7 @@ fn truncated_draco_is_an_error() {
 
 /// The triangle of `Gltf::triangle`, its positions in a compressed view of the second buffer.
 fn meshopt_scene(case: &Value, extension: &str) -> Gltf {
-    let mut g = common::meshopt_scene(case, &unbase64(&case["stream"]));
+    let mut g = crate::common::meshopt_scene(case, &unbase64(&case["stream"]));
     let view = g.doc["bufferViews"].as_array_mut().unwrap().last_mut().unwrap();
     view["buffer"] = json!(1);
     let value = view["extensions"].as_object_mut().unwrap().remove("EXT_meshopt_compression").unwrap();
@@ -131,7 +129,7 @@ fn meshopt_scene(case: &Value, extension: &str) -> Gltf {
 }
 
 fn with_stand_in(g: &Gltf, uri: Option<&str>) -> Gltf {
-    let uri0 = format!("data:;base64,{}", common::base64(&g.bytes));
+    let uri0 = format!("data:;base64,{}", crate::common::base64(&g.bytes));
     let mut stand_in =
         json!({"byteLength": 1_000_000, "extensions": {"EXT_meshopt_compression": {"fallback": true}}});
     if let Some(uri) = uri {

@@ -1,9 +1,7 @@
 //! Names in OBJ and MTL never lead out of the scene's folder and those that the user named, and are told with their place.
 
-mod common;
-
-use common::png;
-use common::texts::Folder;
+use crate::common::png;
+use crate::common::texts::Folder;
 use lumbre_io::{ErrorKind, LoadOptions, Loaded, load_scene};
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,6 @@
 //! PLY and STL: what each form of them means, and that damaged ones are refused with their place.
 
-mod common;
-
-use common::texts::{Folder, primitives};
+use crate::common::texts::{Folder, primitives};
 use glam::{Vec2, Vec3};
 use lumbre_core::Rgb;
 use lumbre_core::color::srgb_decode;

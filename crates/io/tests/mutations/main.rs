@@ -1,6 +1,7 @@
 //! Damaged files: whatever bits are turned, swapped or cut, a reader returns; it neither panics nor hangs nor takes more than a
 //! gibibyte, within the limits that users have. The mutations are the same in every run.
 
+#[path = "../io/common/mod.rs"]
 mod common;
 
 use common::Gltf;
@@ -314,7 +315,7 @@ fn png_and_jpeg() {
 }
 
 fn data(name: &str) -> Vec<u8> {
-    std::fs::read(format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    std::fs::read(format!("{}/tests/io/data/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! Materials, textures and images of glTF: one tiny scene for each feature.
 
-mod common;
-
-use common::{Gltf, png};
+use crate::common::{Gltf, png};
 use lumbre_core::Rgb;
 use lumbre_scene::{
     AlphaMode, Filter, ImageId, Material, MaterialId, TextureId, TextureRef, TextureTransform, Volume, Wrap,

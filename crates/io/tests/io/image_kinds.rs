@@ -1,9 +1,7 @@
 //! Kinds of images: each is read by its first bytes and gives the texels that its own encoder meant. The KTX2 files in
 //! `data` were made with Basis Universal 2.1; the PNG beside each is what its own decoder makes of it.
 
-mod common;
-
-use common::{Gltf, png};
+use crate::common::{Gltf, png};
 use image::{ExtendedColorType, ImageFormat};
 use lumbre_io::{IoError, Limits, LoadOptions, load_scene, read_linear_image};
 use serde_json::json;
@@ -38,7 +36,7 @@ fn read(bytes: &[u8]) -> Result<Texels, IoError> {
 }
 
 fn data(name: &str) -> Vec<u8> {
-    std::fs::read(format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    std::fs::read(format!("{}/tests/io/data/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
 /// Texels that all differ, with alpha.
