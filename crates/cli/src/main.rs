@@ -55,6 +55,10 @@ fn guarded(command: impl FnOnce() -> Result<Code, Failure>) -> Code {
 
 /// One line where a panic arose, on whichever thread.
 fn report_bug(info: &PanicHookInfo<'_>) {
+    // A damaged file, which ends in an error of its own.
+    if lumbre::io::decoder_is_running() {
+        return;
+    }
     let payload = info.payload();
     let text = payload.downcast_ref::<&str>().copied();
     let what = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");

@@ -23,6 +23,7 @@ pub use describe::{Description, UsedExtension, describe_scene};
 pub use error::{ErrorKind, IoError, one_line};
 pub use files::check_writable;
 pub use gltf::{GLTF_EXTENSIONS, GltfExtension, Support};
+pub use guard::decoder_is_running;
 pub use image::exr::{ExrImage, ExrLayer, read_exr, write_exr};
 pub use image::png::write_png;
 pub use image::{LinearImage, LoadedEnvironment, Range, read_environment, read_linear_image, read_picture};

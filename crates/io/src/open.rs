@@ -50,7 +50,9 @@ pub const SCENE_FORMATS: &str = "glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj), P
 pub fn load_scene(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Loaded, IoError> {
     let path = path.as_ref();
     let bytes = files::read_file(path, options.limits.max_file_bytes)?;
-    match format_of(path, &bytes)? {
+    let format = format_of(path, &bytes)?;
+    format.check_choices(path, options)?;
+    match format {
         Format::Glb => gltf::load_glb(path, bytes, options),
         Format::Gltf => gltf::load_json(path, &bytes, options),
         Format::Obj => obj::load(path, &bytes, options),
@@ -70,6 +72,23 @@ pub(crate) enum Format {
 }
 
 impl Format {
+    /// Refuses to choose among what only glTF has.
+    fn check_choices(self, path: &Path, options: &LoadOptions) -> Result<(), IoError> {
+        if matches!(self, Format::Glb | Format::Gltf) {
+            return Ok(());
+        }
+        let scene = match &options.scene {
+            SceneChoice::Default => None,
+            SceneChoice::Index(i) => Some(("scene", i.to_string())),
+            SceneChoice::Name(name) => Some(("scene", format!("{name:?}"))),
+        };
+        let variant = options.variant.as_ref().map(|name| ("variant", format!("{name:?}")));
+        match scene.or(variant) {
+            Some((what, wanted)) => Err(IoError::not_there(path, what, wanted, &[])),
+            None => Ok(()),
+        }
+    }
+
     /// What a file of this format says of itself.
     pub(crate) fn describe(
         self,

@@ -42,14 +42,14 @@ fn project(points: &[Vec3]) -> Vec<Point> {
     let mut normal = [0.0; 3];
     for i in 0..points.len() {
         let (a, b) = (at(i), at(i + 1));
-        for k in 0..3 {
+        for (k, n) in normal.iter_mut().enumerate() {
             let (u, v) = ((k + 1) % 3, (k + 2) % 3);
-            normal[k] += a[u] * b[v] - a[v] * b[u];
+            *n += a[u] * b[v] - a[v] * b[u];
         }
     }
     let axis = (0..3).fold(0, |best, k| if normal[k].abs() > normal[best].abs() { k } else { best });
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-    (0..points.len()).map(|i| at(i)).map(|p| [p[u], p[v] * normal[axis].signum()]).collect()
+    (0..points.len()).map(at).map(|p| [p[u], p[v] * normal[axis].signum()]).collect()
 }
 
 /// From one point to another.

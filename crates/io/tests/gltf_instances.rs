@@ -4,7 +4,7 @@ mod common;
 
 use common::Gltf;
 use glam::{Mat4, Quat, Vec3};
-use lumbre_io::{IoError, Limits, LoadOptions, Loaded, SceneChoice, load_scene};
+use lumbre_io::{ErrorKind, IoError, Limits, LoadOptions, Loaded, SceneChoice, load_scene};
 use lumbre_scene::{MaterialId, MeshId, NodeId, Scene};
 use serde_json::{Value, json};
 
@@ -97,6 +97,21 @@ fn wrong_variants_are_errors() {
     many.doc["extensions"][VARIANTS]["variants"] = json!(names);
     let message = refused(&many, &variant("x"));
     assert!(message.len() < 3000 && message.ends_with(" and 970 more"), "{message}");
+}
+
+#[test]
+fn other_formats_have_neither_scenes_nor_variants() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.obj");
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let first = LoadOptions { scene: SceneChoice::Index(0), ..LoadOptions::default() };
+    for (options, why) in
+        [(first, "no scene 0; there are none"), (variant("red"), "no variant \"red\"; there are none")]
+    {
+        let e = load_scene(&path, &options).unwrap_err();
+        assert_eq!((e.to_string(), e.kind()), (format!("{}: {why}", path.display()), ErrorKind::BadChoice));
+    }
+    assert!(load_scene(&path, &LoadOptions::default()).is_ok());
 }
 
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";

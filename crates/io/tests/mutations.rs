@@ -1,5 +1,5 @@
-//! Damaged files: whatever bits are turned, swapped or cut, a reader returns; it neither panics nor hangs. The mutations
-//! are the same in every run.
+//! Damaged files: whatever bits are turned, swapped or cut, a reader returns; it neither panics nor hangs nor takes more than a
+//! gibibyte, within the limits that users have. The mutations are the same in every run.
 
 mod common;
 
@@ -11,8 +11,9 @@ use lumbre_io::{
 };
 use serde_json::{Value, json};
 use std::path::Path;
+use std::time::{Duration, Instant};
 
-/// Mutations of each file; set `LUMBRE_MUTATIONS` for more.
+/// Mutations of each file, of which there are some forty; set `LUMBRE_MUTATIONS` for more.
 fn rounds() -> u64 {
     std::env::var("LUMBRE_MUTATIONS").ok().and_then(|v| v.parse().ok()).unwrap_or(300)
 }
@@ -103,7 +104,10 @@ fn survive_with<T>(
     for i in 0..n {
         let bytes = mutate(original, &mut random);
         std::fs::write(&path, &bytes).unwrap();
+        let start = Instant::now();
         let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| read(&path)));
+        let took = start.elapsed();
+        assert!(took < MOST_TIME, "mutation {i} of {name} takes {took:?}");
         match result {
             Ok(Ok(_)) => {}
             Ok(Err(e)) => {
@@ -115,19 +119,27 @@ fn survive_with<T>(
             Err(_) => panic!("mutation {i} of {name} panics"),
         }
     }
-    println!("{name}: {refused} of {n} refused");
+    let peak = peak_memory();
+    println!("{name}: {refused} of {n} refused; {:.0?} MiB", peak.map(|b| b >> 20));
     assert!(refused > 0);
+    assert!(peak.unwrap_or(0) < MOST_MEMORY, "{name}: {peak:?} bytes");
 }
 
-/// Enough for the files here, so that a wrong size cannot make the test slow.
+/// Within this a reader returns.
+const MOST_TIME: Duration = Duration::from_secs(5);
+/// The process stays below this, all its tests at once.
+const MOST_MEMORY: u64 = 1 << 30;
+
+/// The most memory that the process has had so far, bytes; `None` where the system does not tell (all but Linux).
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse().ok().map(|kib: u64| kib << 10)
+}
+
+/// Those that users have: what a small damaged file can ask for must be bounded by its own size.
 fn limits() -> Limits {
-    Limits {
-        max_image_bytes: 16 << 20,
-        max_total_image_bytes: 32 << 20,
-        max_triangles: 1 << 20,
-        max_vertices: 1 << 20,
-        ..Limits::default()
-    }
+    Limits::default()
 }
 
 fn rich_scene() -> Gltf {
@@ -145,14 +157,40 @@ fn rich_scene() -> Gltf {
     let texels: Vec<u8> = (0..256).map(|i| i as u8).collect();
     g.image("image/png", &common::png(8, 8, &texels));
     g.primitive()["attributes"] = json!({"POSITION": 0, "TEXCOORD_0": uv, "NORMAL": normal});
-    g.doc["nodes"] = json!([{"children": [1, 2]}, {"mesh": 0, "scale": [1, 2, 3]}, {"camera": 0}]);
-    g.doc["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]);
-    g.material(json!({
+    let places = g.f32s("VEC3", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    let turns = g.raw(5120, "VEC4", 2, &[0, 0, 0, 127, 127, 0, 0, 0]);
+    g.doc["accessors"][turns]["normalized"] = json!(true);
+    let instances = json!({"attributes": {"TRANSLATION": places, "ROTATION": turns}});
+    g.doc["nodes"] = json!([
+        {"children": [1, 2]}, {"mesh": 0, "scale": [1, 2, 3], "extensions": {"EXT_mesh_gpu_instancing": instances}},
+        {"camera": 0, "children": [3, 4]}, {"camera": 1}, {"mesh": 0, "weights": [0.25]}
+    ]);
+    g.doc["cameras"] = json!([
+        {"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}},
+        {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 2, "znear": 0, "zfar": 9}}
+    ]);
+    g.primitive()["targets"] = json!([{"POSITION": 0, "NORMAL": normal}]);
+    g.doc["meshes"][0]["weights"] = json!([0.5]);
+    g.doc["extensions"] = json!({"KHR_materials_variants": {"variants": [{"name": "a"}, {"name": "b"}]}});
+    g.primitive()["extensions"] =
+        json!({"KHR_materials_variants": {"mappings": [{"material": 0, "variants": [0, 1]}]}});
+    let mut g = g.material(json!({
         "pbrMetallicRoughness": {"baseColorTexture": {
             "index": 0, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}
         }},
-        "extensions": {"KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [1, 0.5, 0.25]}}
-    }))
+        "extensions": {
+            "KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [1, 0.5, 0.25]},
+            "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatNormalTexture": {"index": 0, "scale": 0.5}},
+            "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceThicknessTexture": {"index": 0}}
+        }
+    }));
+    g.doc["materials"].as_array_mut().unwrap().push(json!({"extensions": {
+        "KHR_materials_pbrSpecularGlossiness": {"specularGlossinessTexture": {"index": 0}, "glossinessFactor": 0.5},
+        "KHR_materials_sheen": {"sheenColorFactor": [0.5, 0.25, 1], "sheenRoughnessFactor": 0.5},
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 2},
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5}
+    }}));
+    g
 }
 
 /// A smooth picture with some noise, so that every coding has something to do.
@@ -163,7 +201,8 @@ fn picture(n: u32) -> Vec<Rgb> {
 
 #[test]
 fn gltf_and_glb() {
-    let options = LoadOptions { limits: limits(), ..LoadOptions::default() };
+    let variant = Some("b".into());
+    let options = LoadOptions { limits: limits(), variant, ..LoadOptions::default() };
     // A scene that loads must also compile, or say why not.
     let read = |path: &Path| load_scene(path, &options).map(|l| lumbre_scene::compile(&l.scene).map(|_| ()));
     survive("scene.gltf", rich_scene().text().as_bytes(), read);

@@ -220,7 +220,7 @@ fn alpha_of_the_colour_map_and_map_d_cover_together() {
 }
 
 #[test]
-fn roughness_and_metalness_share_a_texture() {
+fn roughness_and_metallic_share_a_texture() {
     let files: &[(&str, &[u8])] = &[("r.png", &grey_png(&[40, 80])), ("m.png", &grey_png(&[0, 255]))];
     let (scene, warnings) = scene_with("newmtl m\nPm 0\nPr 0.5\nmap_Pr r.png\nmap_Pm m.png\n", files);
     assert_eq!(warnings, Vec::<String>::new());

@@ -67,7 +67,7 @@ fn share_along([x, y, z]: [f64; 3], [ax, ay]: [f64; 2]) -> f64 {
     f64::from(at.schlick / (1.0 - at.deficit))
 }
 
-/// A node of the tables: 1 - E, and B/E less that of [`share_along`], before the margins.
+/// A node of the tables: 1 - E, and B/E less that of `share_along`, before the margins.
 pub fn node([i, j, k, l]: [usize; 4]) -> [f64; 2] {
     let at = |i: usize, d: usize| i as f64 / (SIZE[d] - 1) as f64;
     let alpha = alphas_at(at(i, 0), at(j, 1));

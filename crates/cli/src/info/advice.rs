@@ -12,7 +12,9 @@ pub(super) fn on(kind: HintKind) -> Option<&'static str> {
         HintKind::NoLight => {
             "lumbre render adds a gradient sky; --sky, --sun ELEV,AZIM or --env FILE.hdr choose another light"
         }
-        HintKind::AllBlack => "--sky gradient, --sun ELEV,AZIM or --env FILE.hdr add light from outside",
+        HintKind::AllBlack => {
+            "--look-from X,Y,Z looks from another side; --sky gradient, --sun ELEV,AZIM or --env FILE.hdr add light"
+        }
         HintKind::LightInside => "move the lamp out, or give the mesh a transmissive material",
         HintKind::FaintEmission => "--sky gradient, --sun ELEV,AZIM or --env FILE.hdr add more light",
         HintKind::InvisibleMaterial => "raise its alpha, or make its alpha mode OPAQUE",

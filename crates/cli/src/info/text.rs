@@ -164,7 +164,7 @@ fn scene(page: &mut Page, info: &SceneInfo) {
 /// A number with four digits that count.
 fn short(v: f32) -> String {
     match v.abs() {
-        a if a == 0.0 => "0".into(),
+        0.0 => "0".into(),
         a if (0.001..1e6).contains(&a) => {
             let decimals = (3 - a.log10().floor() as i32).clamp(0, 6) as usize;
             let text = format!("{v:.decimals$}");

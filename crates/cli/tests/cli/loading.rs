@@ -77,3 +77,36 @@ fn what_is_not_there_is_listed() {
     lumbre(&format!("render {CORNELL} -o a.png --variant red")).exits(2).says("there are none");
     lumbre(&format!("{render} --scene=")).exits(2).says("a name or a number");
 }
+
+/// An OBJ under a white sky whose only texture, of a quarter of white, lies in another folder and is named in the way of another system.
+#[test]
+fn textures_are_found_in_the_folders_that_are_named() {
+    let dir = folder();
+    let write = |name: &str, bytes: &[u8]| {
+        let path = dir.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, bytes).unwrap();
+    };
+    write(
+        "scene/floor.obj",
+        b"mtllib floor.mtl\nv -9 0 -9\nv -9 0 9\nv 9 0 9\nv 9 0 -9\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1 4/1\n",
+    );
+    write("scene/floor.mtl", b"newmtl m\nKd 0.5 0.5 0.5\nKe 1 1 1\nmap_Ke C:\\textures\\grey.png\n");
+    // sRGB 137 is linear 0.25.
+    lumbre::io::write_png(dir.path().join("grey.png"), 1, 1, &[137; 3]).unwrap();
+    write("textures/grey.png", &std::fs::read(dir.path().join("grey.png")).unwrap());
+    let at = |name: &str| dir.path().join(name).display().to_string();
+    let (scene, textures) = (at("scene/floor.obj"), at("textures"));
+    let view = "--look-from 0,2,0.001 --look-at 0,0,0 --size 4x4 --spp 1 --max-depth 0";
+    let (run, _) = exr(dir.path(), &format!("{scene} {view}"));
+    run.says("floor.mtl: line 4: refused path").says("the material goes without it");
+    let shown = |flags: &str| mean(&picture(dir.path(), &format!("{scene} {view} {flags}"))).g;
+    assert_eq!(shown(""), 1.0);
+    assert!((shown(&format!("--asset-dir {textures}")) - 0.25).abs() < 0.002);
+    let both = format!("--asset-dir {} --asset-dir {textures}", at("scene"));
+    let (run, _) = exr(dir.path(), &format!("{scene} {view} {both}"));
+    run.says("textures/grey.png is taken instead");
+    lumbre(&format!("render {scene} -o a.png --asset-dir {}", at("none")))
+        .exits(66)
+        .says("none: cannot open");
+}

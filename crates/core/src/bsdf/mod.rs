@@ -20,6 +20,7 @@
 pub mod albedo;
 mod albedo_data;
 pub mod aniso_albedo;
+#[allow(clippy::approx_constant, reason = "a table meets a constant by chance")]
 mod aniso_albedo_deficit;
 mod aniso_albedo_schlick;
 pub mod coat;
@@ -27,9 +28,9 @@ pub mod compensation;
 pub mod dielectric;
 pub mod dielectric_base;
 pub mod diffuse;
-mod interface;
+pub mod interface;
 pub mod lambert;
-mod layered;
+pub mod layered;
 pub mod metal;
 pub mod mixture;
 pub mod oren_nayar;

@@ -56,7 +56,7 @@ impl Phong {
     /// True when the base or the lobe scatters by a density.
     #[inline]
     pub fn is_smooth_lobe(&self) -> bool {
-        !self.diffuse.is_black() || (self.exponent.is_some() && !(self.specular.is_black() && !self.fresnel))
+        !self.diffuse.is_black() || (self.exponent.is_some() && (self.fresnel || !self.specular.is_black()))
     }
 
     /// Hemispherical albedo, what the lobe loses at grazing angles not counted.

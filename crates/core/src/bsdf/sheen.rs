@@ -9,8 +9,8 @@
 //!   V = 1 / (4 (μo ηi + μi ηo)), η(μ) = √(¼ + k (1 - μ²)),
 //!
 //! height-correlated, reciprocal, and darker than Smith's: it never gains. k comes from Watson's bound of a ratio of gamma functions
-//! (Watson 1959): σ(90°)² <= (2 + p)² / (π (2p + 5)), off by 1 % at most. From roughness 0.3 the albedo is within 0.1 of that of the
-//! authors' fit (it lies between the two visibilities in use with glTF); below it is what fits under 1.
+//! (Watson 1959): σ(90°)² <= (2 + p)² / (π (2p + 5)), off by 1 % at most. From roughness 0.3 and above a cosine of 0.05 the albedo
+//! is within 0.1 of that of the authors' fit, which falls again towards the horizon; at lower roughness it is darker, as it must be.
 //!
 //! Left out: multiple scattering between fibres, and the authors' softening of the terminator, which is not reciprocal.
 

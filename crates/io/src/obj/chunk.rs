@@ -3,6 +3,7 @@
 
 use super::text::{Lines, Words, name, number, shown, split_word};
 use glam::{Vec2, Vec3};
+use std::mem::discriminant;
 
 /// The largest index of a vertex that can be written down.
 pub(super) const MOST_VERTICES: u32 = 1 << 30;
@@ -76,6 +77,9 @@ pub(super) struct Noted {
     pub(super) line: usize,
     pub(super) count: usize,
 }
+
+/// Corners of a face. A line has no end otherwise.
+const MOST_CORNERS: usize = 1 << 20;
 
 /// Kinds of notes that one chunk tells.
 const MOST_NOTES: usize = 64;
@@ -153,7 +157,11 @@ impl Chunk {
             b"usemtl" => self.state(State::Material(name(rest))),
             b"s" => self.smoothing(rest),
             b"mtllib" => {
-                self.libraries.push((number, name(rest)));
+                let library = name(rest);
+                // Many files repeat it for each object.
+                if self.libraries.last().is_none_or(|(_, last)| *last != library) {
+                    self.libraries.push((number, library));
+                }
                 Ok(())
             }
             _ => self.left_out(key, number),
@@ -184,8 +192,15 @@ impl Chunk {
         }
     }
 
+    /// Of states of one kind without a face between them, the last counts.
     fn state(&mut self, state: State) -> Result<(), String> {
-        self.states.push((self.face_ends.len() as u32, state));
+        let face = self.face_ends.len() as u32;
+        let same_place = self.states.iter_mut().rev().take_while(|(at, _)| *at == face);
+        let same_kind = |known: &State| discriminant(known) == discriminant(&state);
+        match same_place.map(|(_, known)| known).find(|known| same_kind(known)) {
+            Some(known) => *known = state,
+            None => self.states.push((face, state)),
+        }
         Ok(())
     }
 
@@ -227,6 +242,9 @@ impl Chunk {
         let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
         for word in Words(rest) {
             self.corners.push(corner(word, counts)?);
+            if self.corners.len() - begin > MOST_CORNERS {
+                return Err(format!("a face of more than {MOST_CORNERS} corners"));
+            }
         }
         if self.corners.len() - begin < 3 {
             self.corners.truncate(begin);
@@ -372,6 +390,30 @@ mod tests {
         assert_eq!(chunk.notes, [Noted { note: Note::SmallFace, line: 4, count: 1 }]);
         assert_eq!(chunk.error, Some((8, "\"x\" is no number".into())));
         assert_eq!([0, 1].map(|f| Chunk::line_of_face(text, f)), [6, 7]);
+    }
+
+    #[test]
+    fn states_without_faces_between_them_do_not_pile_up() {
+        let chunk = Chunk::read(b"g a\ns 1\nusemtl m\ng b\nusemtl n\nf 1 1 1\ng c\ng\nusemtl n\n");
+        let state = |at, state| (at, state);
+        let text = |t: &str| t.to_string();
+        assert_eq!(
+            chunk.states,
+            [
+                state(0, State::Group(text("b"))),
+                state(0, State::Smoothing(1)),
+                state(0, State::Material(text("n"))),
+                state(1, State::Group(text(""))),
+                state(1, State::Material(text("n"))),
+            ]
+        );
+    }
+
+    #[test]
+    fn a_face_has_an_end() {
+        let line = format!("f{}", " 1".repeat(MOST_CORNERS + 1));
+        let chunk = Chunk::read(line.as_bytes());
+        assert_eq!(chunk.error, Some((1, "a face of more than 1048576 corners".into())));
     }
 
     #[test]

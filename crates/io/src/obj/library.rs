@@ -69,13 +69,16 @@ impl Libraries {
                     continue;
                 }
             };
+            // What a name of another system led to is called by its last part.
+            let mut called = name;
             if let Some(note) = &found.note {
                 warnings.add(&place, format!("mtllib {note}"));
+                called = found.real.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
             }
             let read = read_file(&found.real, room)
                 .and_then(|b| room.take(&found.shown, "", b.len() as u64).map(|()| b));
             match read {
-                Ok(text) => out.add(&text, name, found.real, warnings),
+                Ok(text) => out.add(&text, called, found.real, warnings),
                 Err(e) => warnings.add(place, format!("mtllib {e}; its materials are grey")),
             }
         }

@@ -48,11 +48,11 @@ pub(super) fn parse(rest: &[u8], line: usize, mut odd: impl FnMut(String)) -> Re
         rest = trim(after);
     }
     // Some programs write it last.
-    if let Some(at) = rest.windows(5).rposition(|w| w == b" -bm ") {
-        if let Ok(strength) = number(trim(&rest[at + 5..])) {
-            map.strength = strength;
-            rest = &rest[..at];
-        }
+    if let Some(at) = rest.windows(5).rposition(|w| w == b" -bm ")
+        && let Ok(strength) = number(trim(&rest[at + 5..]))
+    {
+        map.strength = strength;
+        rest = &rest[..at];
     }
     let quoted = rest.strip_prefix(b"\"").and_then(|r| r.strip_suffix(b"\""));
     map.name = name(quoted.unwrap_or(rest));

@@ -50,7 +50,7 @@ pub(crate) fn load(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<L
 
     let resolver = Resolver::new(path, options)?;
     let libraries = Libraries::load(&resolver, &whole.libraries, &options.limits, &mut warnings);
-    let mut table = MaterialTable::new(&libraries, &segments, &whole, &mut warnings);
+    let table = MaterialTable::new(&libraries, &segments, &whole, &mut warnings);
     let (ids, otherwise) = table.ids();
     let used: Vec<&Entry> = table.sources.iter().filter_map(|s| s.as_ref().ok().copied()).collect();
     let ((pictures, picture_warnings), meshes) = rayon::join(
@@ -83,11 +83,14 @@ struct MaterialTable<'a> {
 
 impl<'a> MaterialTable<'a> {
     fn new(libraries: &'a Libraries, segments: &Segments, whole: &Whole, warnings: &mut Warnings) -> Self {
+        if whole.libraries.is_empty() && !segments.materials.is_empty() {
+            warnings.add("", "it names materials but no library of them; they are grey");
+        }
         let mut sources: Vec<Result<&Entry, String>> = Vec::with_capacity(segments.materials.len() + 1);
         for name in &segments.materials {
             let entry = libraries.get(name);
             if entry.is_none() && !libraries.files.is_empty() {
-                warnings.add("", format!("no library has the material {name:?}; it is grey"));
+                warnings.add("", format!("no library has the material {}; it is grey", quoted(name)));
             }
             sources.push(entry.ok_or_else(|| name.clone()));
         }
@@ -96,11 +99,9 @@ impl<'a> MaterialTable<'a> {
             // A file that names a library but no material of it can mean only its only one.
             let only = match &libraries.entries[..] {
                 [only] if segments.materials.is_empty() => {
-                    let name = &only.mtl.name;
-                    warnings.add(
-                        "",
-                        format!("no material is chosen; all faces get the library's only one, {name:?}"),
-                    );
+                    let name = quoted(&only.mtl.name);
+                    let what = format!("no material is chosen; all faces get the library's only one, {name}");
+                    warnings.add("", what);
                     Some(only)
                 }
                 _ => None,
@@ -112,7 +113,7 @@ impl<'a> MaterialTable<'a> {
     }
 
     /// Ids of the materials that faces name, and of that for faces that name none.
-    fn ids(&mut self) -> (Vec<MaterialId>, Option<MaterialId>) {
+    fn ids(&self) -> (Vec<MaterialId>, Option<MaterialId>) {
         let id = |i: usize| MaterialId(i as u32);
         ((0..self.sources.len()).map(id).collect(), self.otherwise.map(id))
     }
@@ -127,6 +128,11 @@ impl<'a> MaterialTable<'a> {
         };
         self.sources.iter().map(&mut load).collect()
     }
+}
+
+/// A name for a message, cut short.
+fn quoted(name: &str) -> String {
+    format!("{:?}", name.chars().take(80).collect::<String>())
 }
 
 /// The name of a scene: that of its file.

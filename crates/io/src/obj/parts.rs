@@ -44,7 +44,7 @@ impl Segments {
         let by_object = states().any(|s| matches!(s, State::Object(_)));
         let mut out = Segments::default();
         let (mut object_ids, mut material_ids) = (HashMap::new(), HashMap::new());
-        let mut unnamed = out.intern_object(&mut object_ids, "");
+        let unnamed = out.intern_object(&mut object_ids, "");
         let mut current = Segment { piece: 0, range: 0..0, object: unnamed, material: None, smoothing: 0 };
         for (piece, (faces, triangles)) in whole.pieces.iter().zip(triangles).enumerate() {
             current = Segment { piece, range: 0..0, ..current };
@@ -75,11 +75,8 @@ impl Segments {
         }
         if object_ids.len() > MOST_OBJECTS {
             warnings.add("", format!("more than {MOST_OBJECTS} objects: they become one"));
-            out.list.iter_mut().for_each(|s| s.object = 0);
-            out.objects.truncate(1);
-            unnamed = 0;
+            out.list.iter_mut().for_each(|s| s.object = unnamed);
         }
-        debug_assert_eq!(unnamed, 0);
         out
     }
 

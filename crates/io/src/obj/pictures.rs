@@ -15,6 +15,9 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::PathBuf;
 
+/// Names of pictures; every one costs looks at the disk.
+const MOST_NAMES: usize = 1 << 13;
+
 /// A decoded picture.
 pub(super) struct Picture {
     pub(super) image: Image,
@@ -72,7 +75,11 @@ impl Pictures {
             }
             let file = &libraries.files[entry.file];
             let place = format!("{}: line {}", file.name, map.line);
-            let read = gather.find(map, file, &place, warnings);
+            let read = if uses.len() < MOST_NAMES {
+                gather.find(map, file, &place, warnings)
+            } else {
+                Err(format!("more than {MOST_NAMES} pictures"))
+            };
             uses.insert(key.clone(), Use { file: key.0, name: key.1.clone(), place, read });
             order.push(key);
         }

@@ -83,7 +83,7 @@ pub(super) fn with_coverage(color: Option<&Image>, alpha: &Image, channel: Optio
     })
 }
 
-/// Roughness in green and metalness in blue, each white without a picture.
+/// Roughness in green and metallic in blue, each white without a picture.
 pub(super) fn rough_metal(rough: Option<(&Image, Channel)>, metal: Option<(&Image, Channel)>) -> Image {
     let parts = || rough.iter().chain(&metal).map(|(image, _)| *image);
     let size = common_size(parts());

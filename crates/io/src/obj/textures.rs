@@ -101,7 +101,7 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// Roughness and metalness in one.
+    /// Roughness and metallic in one.
     pub(super) fn rough_metal(
         &mut self,
         file: usize,

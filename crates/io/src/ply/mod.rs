@@ -7,6 +7,7 @@
 mod header;
 mod values;
 
+use crate::error::one_line;
 use crate::limits::Room;
 use crate::warnings::Warnings;
 use crate::{Bound, IoError, LoadOptions, Loaded, obj, polygon};
@@ -133,7 +134,7 @@ impl Body<'_> {
         if self.values.is_text() {
             format!("line {}", self.values.line)
         } else {
-            format!("{} {row}", element.name)
+            one_line(&format!("{} {row}", element.name))
         }
     }
 

@@ -34,7 +34,7 @@ pub struct SceneInfo {
     pub cameras: Vec<CameraInfo>,
     /// Memory that it takes.
     pub memory: MemoryInfo,
-    /// What is left out of the picture or replaced: one line each, as [`compile`] tells them.
+    /// What is left out of the picture or replaced: one line each, as [`compile()`] tells them.
     pub notes: Vec<String>,
     /// Why the picture might not be as meant; the gravest first.
     pub hints: Vec<Hint>,

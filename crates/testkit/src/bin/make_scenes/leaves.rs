@@ -39,7 +39,7 @@ pub(crate) fn leaves() -> Vec<u8> {
     document.object("ball", &geometry, ball, &Placement::at(DVec3::new(-0.42, 1.35, -0.55)).scaled(0.13));
     document.object("ball", &geometry, ball, &Placement::at(DVec3::new(0.35, 0.12, 0.95)).scaled(0.12));
     let leaf = document.geometry(&leaf());
-    let places = [(DVec3::new(-0.35, 0.25, 0.0), 1.6, 8.0), (DVec3::new(0.35, 0.15, 0.12), 1.25, -14.0)];
+    let places = [(DVec3::new(-0.35, 0.25, 0.0), 1.6, 8.0), (DVec3::new(0.18, 0.15, 0.2), 1.25, -14.0)];
     for (at, size, turn) in places {
         let placement = Placement::at(at).scaled(size).turned_y(turn);
         document.object_of_variants("leaf", &leaf, &[summer, autumn], &placement);
@@ -96,7 +96,7 @@ fn surface(columns: usize, rows: usize, f: impl Fn(DVec2) -> DVec3) -> Mesh {
 /// A leaf of height 1, folded a little along its middle and bent towards +z.
 fn leaf() -> Mesh {
     surface(16, 24, |p| {
-        let width = 0.26 * libm::pow(libm::sin(PI * (0.02 + 0.96 * p.y)), 0.8) * (1.25 - 0.5 * p.y);
+        let width = 0.26 * libm::pow(libm::sin(PI * (0.004 + 0.992 * p.y)), 0.8) * (1.25 - 0.5 * p.y);
         let side = 2.0 * p.x - 1.0;
         let fold = 0.25 * width * libm::sqrt(side * side + 0.02);
         DVec3::new(width * side, p.y, 0.18 * p.y * p.y - fold)

@@ -13,7 +13,7 @@ pub(crate) fn prism() -> Vec<u8> {
     let mut document = Document::default();
     let floor = document.material(plain("floor", [0.55, 0.55, 0.55], 0.0));
     let wall = document.material(plain("wall", [0.02, 0.02, 0.025], 0.0));
-    let bar = document.material(plain("bar", [0.0; 3], 12.0));
+    let bar = document.material(plain("bar", [0.0; 3], 5.0));
     let flint = document.material(glass("flint", 1.72, 20.0 / 29.0));
     let diamond = document.material(glass("diamond", 2.417, 20.0 / 55.0));
     let mut show = |name: &str, mesh: &Mesh, material: usize, placement: Placement| {
@@ -26,10 +26,10 @@ pub(crate) fn prism() -> Vec<u8> {
     show("wall", &rectangle(corner, DVec3::X * 12.0, DVec3::Y * 4.0), wall, Placement::at(DVec3::ZERO));
     for i in 0..6 {
         let corner = DVec3::new(-3.4 + 1.2 * f64::from(i), 0.4, -2.95);
-        let mesh = rectangle(corner, DVec3::X * 0.25, DVec3::Y * 1.9);
+        let mesh = rectangle(corner, DVec3::X * 0.14, DVec3::Y * 1.9);
         show("bar", &mesh, bar, Placement::at(DVec3::ZERO));
     }
-    let panel = rectangle(DVec3::new(-0.8, 3.6, 0.6), DVec3::X * 0.5, DVec3::Z * 0.5);
+    let panel = rectangle(DVec3::new(-1.2, 3.6, 0.4), DVec3::X * 1.6, DVec3::Z * 1.2);
     show("lamp", &panel, bar, Placement::at(DVec3::ZERO));
     show("prism", &wedge(), flint, Placement::at(DVec3::new(-0.75, 0.0, 0.2)).turned_y(24.0));
     show(
