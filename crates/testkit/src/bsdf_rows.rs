@@ -418,10 +418,10 @@ pub fn anisotropic() -> Vec<Row> {
         stretched("brushed glass", 0.6, 0.3, glass),
         stretched("brushed glass, full", 1.0, 0.2, glass),
         stretched("brushed glass from inside", 0.6, 0.3, from_inside),
-        stretched("brushed glass, nearly matched", 1.0, 0.0, |p| {
+        stretched("brushed glass, nearly matched", 1.0, 0.15, |p| {
             p.transmission = 1.0;
             p.thin = false;
-            p.eta = 1.05;
+            p.eta = 1.1;
         }),
         stretched("brushed thin", 0.6, 0.3, thin),
         stretched("brushed thin, full", 1.0, 0.2, thin),
