@@ -103,7 +103,8 @@ impl Tracer<'_> {
     fn arriving(&self, catcher: &Catcher<'_>, light: &LightSample, sampler: &Sampler) -> Spectrum {
         let Catcher { it, media, wavelength, depth, time, .. } = *catcher;
         let shadow = ShadowRay { time, wavelength, ..self.shadow_ray(it, light, media, depth) };
-        self.transmittance(&shadow, CoverageKey::shadow(sampler.coverage_key(), catcher.depth)).share
+        let key = CoverageKey::catcher(sampler.coverage_key(), catcher.depth, catcher.passed);
+        self.transmittance(&shadow, key).share
     }
 }
 

@@ -59,6 +59,8 @@ struct Path<'a, 't, O> {
     straight: bool,
     /// Shadow catchers that it has passed.
     caught: u32,
+    /// Length of the rays up to the last of these, metres.
+    travelled: f32,
     /// Scattering events so far.
     depth: u32,
     max_depth: u32,
@@ -88,6 +90,7 @@ pub fn radiance<O: PathObserver>(
         seen_by_camera: true,
         straight: true,
         caught: 0,
+        travelled: 0.0,
         depth: 0,
         max_depth: tracer.settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND),
     };
@@ -150,7 +153,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
             }
             self.observer.event(PathEvent::Hit { it: &it, ns: surface.frame.n, beta: self.beta });
             if self.depth == 0 {
-                first_hit = Some(first_hit_planes(&it, &surface));
+                first_hit = Some(first_hit_planes(&it, &surface, self.travelled));
             }
             // Add what it emits.
             if self.add_emission(&it, &surface) {
@@ -212,6 +215,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
         self.observer.event(PathEvent::Caught { it, share: caught.share, rays: caught.rays });
         self.beta *= caught.share;
         self.caught += 1;
+        self.travelled += it.t;
         self.ray = Ray::new(it.leave(self.ray.dir), self.ray.dir, self.ray.time);
     }
 
@@ -393,11 +397,12 @@ impl<O: PathObserver> Path<'_, '_, O> {
     }
 }
 
-fn first_hit_planes(it: &Interaction, surface: &Surface) -> FirstHit {
+/// The planes of the first surface, met after `travelled` metres of ray before the one that found it.
+fn first_hit_planes(it: &Interaction, surface: &Surface, travelled: f32) -> FirstHit {
     FirstHit {
         albedo: surface.bsdf.albedo(),
         normal: surface.frame.n.to_array(),
         position: it.p.to_array(),
-        depth: it.t,
+        depth: travelled + it.t,
     }
 }

@@ -34,6 +34,11 @@ impl CoverageKey {
     pub fn shadow(stream: u32, vertex: u32) -> Self {
         CoverageKey(hash_combine(stream, 2 * vertex + 1))
     }
+    /// Key of the shadow ray from the shadow catcher seen from vertex `vertex` after `passed` others: its verdicts multiply those
+    /// of the rays behind it, so that they must be independent.
+    pub fn catcher(stream: u32, vertex: u32, passed: u32) -> Self {
+        CoverageKey(hash_combine(hash_combine(stream, 2 * vertex + 1), passed + 1))
+    }
     /// A number in [0, 1) for this ray and triangle.
     #[inline]
     fn unit(self, hit: &Hit) -> f32 {
@@ -71,5 +76,21 @@ impl Tracer<'_> {
         };
         let hit = self.accel.closest_hit_camera(ray, visible)?;
         Some(Interaction::new(self.scene, ray, &hit))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Verdicts that multiply along one path come from different keys.
+    #[test]
+    fn keys_of_one_path_differ() {
+        let keys = |v| {
+            let catchers = (0..4).map(move |passed| CoverageKey::catcher(7, v, passed).0);
+            [CoverageKey::path(7, v).0, CoverageKey::shadow(7, v).0].into_iter().chain(catchers)
+        };
+        let all: std::collections::HashSet<u32> = (0..64).flat_map(keys).collect();
+        assert_eq!(all.len(), 64 * 6);
     }
 }

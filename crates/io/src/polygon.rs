@@ -4,7 +4,7 @@ use glam::Vec3;
 
 /// Steps of the search for ears that a corner may cost on average. Real polygons stay far below; without it a crafted one could
 /// take hours.
-const STEPS_PER_CORNER: usize = 2048;
+const STEPS_PER_CORNER: usize = 512;
 
 /// The warning where it returns false.
 pub(crate) const CROSSING: &str = "a face that crosses itself is cut into triangles as well as it can be";

@@ -65,6 +65,9 @@ enum Miss {
     Outside,
 }
 
+/// Bytes of the longest plain name that is looked for: the longest path of common systems.
+const MOST_NAME_BYTES: usize = 4096;
+
 impl<'a> Resolver<'a> {
     /// For the scene at `path`, which exists.
     pub(crate) fn new(path: &'a Path, options: &LoadOptions) -> Result<Self, IoError> {
@@ -108,6 +111,9 @@ impl<'a> Resolver<'a> {
     /// Finds the file that a plain `name` means: beneath `beside`, which is a folder that an earlier name led to, beneath the
     /// scene's folder or a named one, and if that fails by its last part alone. The error is a reason, to be told with its place.
     pub(crate) fn find_name(&self, name: &str, beside: Option<&Path>) -> Result<Found, String> {
+        if name.len() > MOST_NAME_BYTES {
+            return Err(refused(name, "it is longer than names of files are"));
+        }
         let why = match relative_path(name) {
             Ok(relative) => {
                 if let Some(found) = beside.and_then(|folder| self.find_beside(folder, &relative)) {

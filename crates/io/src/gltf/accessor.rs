@@ -4,6 +4,7 @@ use super::buffers::{Buffers, View};
 use super::document::Document;
 use crate::{Bound, IoError};
 use gltf::json::accessor::{ComponentType, Type, sparse::Sparse};
+use gltf::json::mesh::Primitive as JsonPrimitive;
 use gltf::json::validation::Checked;
 
 /// Reads accessors of one document.
@@ -163,6 +164,12 @@ impl<'a> Accessors<'a> {
         })?;
         let Form { count, component, lanes, normalized } = *form;
         Ok(Elements { bytes, stride, count, component, lanes, normalized })
+    }
+
+    /// True if any attribute of the primitive is sparse.
+    pub(super) fn has_sparse(&self, primitive: &JsonPrimitive) -> bool {
+        let accessors = &self.doc.root.accessors;
+        primitive.attributes.values().any(|a| accessors.get(a.value()).is_some_and(|a| a.sparse.is_some()))
     }
 
     /// The elements as vectors of floats: all of them, or those that `select` lists (each below the count). The accessor

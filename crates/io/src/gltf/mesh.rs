@@ -1,6 +1,7 @@
 //! Meshes, on all cores.
 
 use super::accessor::Accessors;
+use super::draco;
 use super::morph::Shape;
 use super::primitive;
 use crate::warnings::Warnings;
@@ -63,7 +64,10 @@ fn check_budget(accessors: &Accessors, shapes: &[Shape]) -> Result<(), IoError> 
             };
             // Each morph target that counts is read like further vertices.
             let sets = 1 + shape.targets(primitive).count() as u64;
-            vertices = vertices.saturating_add(count.min(used).saturating_mul(sets));
+            // What is sparse or compressed is read whole, however little of it is used.
+            let whole = accessors.has_sparse(primitive) || draco::is_used(primitive);
+            let read = if whole { count } else { count.min(used) };
+            vertices = vertices.saturating_add(read.saturating_mul(sets));
             let strip = matches!(primitive.mode, Checked::Valid(Mode::TriangleStrip | Mode::TriangleFan));
             triangles = triangles.saturating_add(if strip { used } else { used / 3 });
             doc.limits.hold(Bound::Vertices, doc.path, &place(), vertices)?;

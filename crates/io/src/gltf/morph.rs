@@ -31,18 +31,29 @@ impl Shape {
 /// The shapes in which the nodes show the meshes. Shape `i` is of mesh `i`; where nodes morph one mesh in several ways, more
 /// shapes follow, and those nodes show them.
 pub(super) fn shapes(doc: &Document, nodes: &mut [Node]) -> Vec<Shape> {
-    let own = |m: usize| doc.root.meshes[m].weights.clone().unwrap_or_default();
+    // Weights without a target are not looked at, so that many nodes may share a long list of them.
+    let targets = |m: usize| {
+        let primitives = &doc.root.meshes[m].primitives;
+        primitives.iter().map(|p| p.targets.as_ref().map_or(0, Vec::len)).max().unwrap_or(0)
+    };
+    let cut = |m: usize, weights: &[f32]| weights[..weights.len().min(targets(m))].to_vec();
+    let own = |m: usize| cut(m, doc.root.meshes[m].weights.as_deref().unwrap_or_default());
     let mut shapes: Vec<_> =
         (0..doc.root.meshes.len()).map(|mesh| Shape { mesh, weights: own(mesh) }).collect();
     // Which of them are shown by no node yet, and the others by their weights.
     let mut known: HashMap<(usize, Vec<u32>), usize> = HashMap::new();
+    let mut unmorphed: HashMap<usize, usize> = HashMap::new();
     let mut taken = vec![false; shapes.len()];
     for (node, json) in nodes.iter_mut().zip(&doc.root.nodes) {
         let Some(mesh) = node.mesh.map(MeshId::index) else { continue };
         if !doc.root.meshes[mesh].primitives.iter().any(|p| p.targets.is_some()) {
             continue;
         }
-        let weights = json.weights.clone().unwrap_or_else(|| own(mesh));
+        if let (None, Some(&shape)) = (&json.weights, unmorphed.get(&mesh)) {
+            node.mesh = Some(MeshId(shape as u32));
+            continue;
+        }
+        let weights = json.weights.as_deref().map_or_else(|| own(mesh), |w| cut(mesh, w));
         let bits = weights.iter().map(|w| w.to_bits()).collect();
         let shape = *known.entry((mesh, bits)).or_insert_with(|| {
             let shape = Shape { mesh, weights };
@@ -53,6 +64,9 @@ pub(super) fn shapes(doc: &Document, nodes: &mut [Node]) -> Vec<Shape> {
             shapes.push(shape);
             shapes.len() - 1
         });
+        if json.weights.is_none() {
+            unmorphed.insert(mesh, shape);
+        }
         node.mesh = Some(MeshId(shape as u32));
     }
     shapes

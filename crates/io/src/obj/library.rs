@@ -12,6 +12,7 @@ use std::path::PathBuf;
 const MOST_LIBRARIES: usize = 1 << 10;
 
 /// A material and the file that has it.
+#[derive(Clone)]
 pub(super) struct Entry {
     pub(super) mtl: Mtl,
     /// Index into [`Libraries::files`].
@@ -46,7 +47,10 @@ impl Libraries {
         let mut out = Libraries::default();
         let mut seen = HashSet::new();
         let mut room = limits.room(Bound::FileBytes);
-        for (line, name) in statements.iter().flat_map(|(line, rest)| {
+        // Looking for files costs time: each statement counts once, and no more of them than libraries.
+        let mut known = HashSet::new();
+        let new = statements.iter().filter(|(_, rest)| known.insert(rest.as_str())).take(MOST_LIBRARIES + 1);
+        for (line, name) in new.flat_map(|(line, rest)| {
             names(rest, |whole| resolver.find_name(whole, None).is_ok_and(|f| f.note.is_none()))
                 .into_iter()
                 .map(move |name| (line, name))
@@ -106,7 +110,8 @@ impl Libraries {
 /// if there `exists` such a file, or if it does not end in several of `.mtl`.
 fn names(rest: &str, exists: impl Fn(&str) -> bool) -> Vec<String> {
     let whole = rest.strip_prefix('"').and_then(|r| r.strip_suffix('"')).unwrap_or(rest);
-    let is_end = |word: &str| word.to_ascii_lowercase().ends_with(".mtl");
+    let is_end =
+        |word: &str| word.len() >= 4 && word.as_bytes()[word.len() - 4..].eq_ignore_ascii_case(b".mtl");
     if whole.split_whitespace().filter(|w| is_end(w)).count() < 2 || exists(whole) {
         return vec![whole.to_string()];
     }
@@ -115,7 +120,10 @@ fn names(rest: &str, exists: impl Fn(&str) -> bool) -> Vec<String> {
         let last = out.last_mut().filter(|l| !is_end(l));
         match last {
             Some(last) if last.is_empty() => *last = word.into(),
-            Some(last) => *last = format!("{last} {word}"),
+            Some(last) => {
+                last.push(' ');
+                last.push_str(word);
+            }
             None if word.is_empty() => {}
             None => out.push(word.into()),
         }

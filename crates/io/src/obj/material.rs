@@ -58,6 +58,10 @@ enum Model {
 
 /// Makes a material of the scene. What is odd about it is told to `textures`.
 pub(super) fn load(entry: &Entry, textures: &mut Textures) -> Material {
+    // A picture that is not there is as if it had not been named: it must not switch anything on.
+    let mut entry = entry.clone();
+    entry.mtl.maps_mut().into_iter().for_each(|map| textures.forget_missing(entry.file, map));
+    let entry = &entry;
     let Entry { mtl, file } = entry;
     let coverage = Coverage::new(mtl, textures);
     let model = model(mtl, &coverage, textures);

@@ -47,6 +47,12 @@ impl Mtl {
         let others = [&self.map_pr, &self.map_pm, &self.bump, &self.norm];
         color.into_iter().chain(others).flatten()
     }
+
+    /// The places of all of them.
+    pub(super) fn maps_mut(&mut self) -> [&mut Option<Map>; 8] {
+        let Mtl { map_kd, map_ks, map_ke, map_d, map_pr, map_pm, bump, norm, .. } = self;
+        [map_kd, map_ks, map_ke, map_d, map_pr, map_pm, bump, norm]
+    }
 }
 
 /// Reads a library. Lines that cannot be read are told to `odd` with their number and left out: a wrong material must not

@@ -69,6 +69,13 @@ impl<'a> Textures<'a> {
         self.warnings.add(&self.place, what);
     }
 
+    /// Takes away a map whose picture could not be read.
+    pub(super) fn forget_missing(&self, file: usize, map: &mut Option<Map>) {
+        if map.as_ref().is_some_and(|m| self.pictures.get(file, m).is_none()) {
+            *map = None;
+        }
+    }
+
     /// The map's picture as it is.
     pub(super) fn plain(&mut self, file: usize, map: &Option<Map>) -> Option<TextureRef> {
         let map = map.as_ref()?;

@@ -1,6 +1,6 @@
 //! PLY, the Stanford triangle format (Turk 1994), as a single object: text, and binary of either byte order.
 //!
-//! Read of `vertex`: x y z, nx ny nz, texture coordinates (u v, s t, texture_u texture_v), red green blue alpha (as bytes, words
+//! Read of `vertex`: x y z, nx ny nz, texture coordinates (u v, s t, texture_u texture_v), red green blue (as bytes, words
 //! or floats; by the sRGB curve); of `face` the list of vertex indices; of `tristrips` the list with -1 between strips. All else is
 //! passed over. Our own reader: the crates for PLY give every value a name of its own, which is slow and takes much memory.
 

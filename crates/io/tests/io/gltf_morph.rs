@@ -123,3 +123,17 @@ fn targets_count_as_vertices() {
     let message = load(3002).unwrap_err().to_string();
     assert!(message.ends_with("number of vertices 3003 exceeds the limit of 3002"), "{message}");
 }
+
+/// Many nodes may share a mesh with a long list of weights: it is looked at once, and no further than there are targets.
+#[test]
+fn a_long_list_of_weights_is_read_once() {
+    let start = std::time::Instant::now();
+    let mut g = morphed();
+    g.doc["meshes"][0]["weights"] = json!(vec![0.5; 150_000]);
+    let n = 20_000;
+    g.doc["nodes"] = json!(vec![json!({"mesh": 0}); n]);
+    g.doc["scenes"] = json!([{"nodes": (0..n).collect::<Vec<_>>()}]);
+    let scene = g.scene();
+    assert_eq!((scene.meshes.len(), scene.roots.len()), (1, n));
+    assert!(start.elapsed() < std::time::Duration::from_secs(5), "{:?}", start.elapsed());
+}

@@ -301,3 +301,15 @@ fn pictures_of_materials_that_no_face_has_are_not_read() {
     let mtl = "newmtl m\nnewmtl other\nmap_Kd none.png\n";
     assert_eq!(material(mtl).1, Vec::<String>::new());
 }
+
+/// A picture that is not there switches nothing on: factors of 0 stay 0, and the model is that of the other statements.
+#[test]
+fn a_missing_picture_is_as_if_not_named() {
+    let maps = ["map_Ke", "map_Ks", "map_Kd", "map_d"].map(|m| format!("{m} gone.png\n")).concat();
+    let (m, warnings) = material(&format!("newmtl m\nKd 0 0 0\nKs 0 0 0\nKe 0 0 0\n{maps}"));
+    assert!(m.emission.is_black() && m.base_color.is_black() && m.phong.is_none(), "{m:?}");
+    assert_eq!(m.alpha_mode, lumbre_scene::AlphaMode::Opaque);
+    assert!(warnings.iter().any(|w| w.contains("gone.png")), "{warnings:?}");
+    let (m, _) = material("newmtl m\nKd 0.5 0.5 0.5\nPr 0.25\nPm 0\nmap_Pm gone.png\nmap_Pr gone.png\n");
+    assert_eq!((m.metallic, m.roughness), (0.0, 0.25));
+}

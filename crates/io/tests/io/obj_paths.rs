@@ -207,3 +207,16 @@ fn no_link_leads_out_and_no_pipe_is_opened() {
     let loaded = load(&f, &["."]);
     assert!(loaded.warnings.iter().all(|w| !w.contains("file.png")), "{:?}", loaded.warnings);
 }
+
+/// Names pieced together from a line of any length, and statements of any number, cost no more than reading them.
+#[test]
+fn long_and_many_library_statements_are_quick() {
+    let start = std::time::Instant::now();
+    let words = "x ".repeat(400_000);
+    let many: String = (0..50_000).map(|i| format!("mtllib a.mtl {}.mtl\n", i % 2_000)).collect();
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let text = format!("mtllib a.mtl {words}b.mtl\n{many}{triangle}");
+    let (_, warnings) = Folder::new(&[("scene.obj", text.as_bytes())]).load("scene.obj");
+    assert!(warnings.iter().all(|w| w.len() < 1_000));
+    assert!(start.elapsed() < std::time::Duration::from_secs(5), "{:?}", start.elapsed());
+}
