@@ -1,8 +1,8 @@
 //! Fresnel reflectance of smooth interfaces, unpolarised, and Snell's law.
 //!
 //! `eta` is always the index on the far side over the index on the side of the ray. Sources: Born and Wolf 1999, 1.5.2 and
-//! 14.2; Walter et al. 2007, eq. 22 (the same law without the refracted angle); Schlick 1994. Left out:
-//! polarisation and thin films.
+//! 14.2; Walter et al. 2007, eq. 22 (the same law without the refracted angle); Schlick 1994. Polarisation
+//! counts in [`crate::bsdf::thin_film`] only.
 
 use crate::math::{Vec3, safe_sqrt, sqr};
 use crate::rgb::Spectrum;

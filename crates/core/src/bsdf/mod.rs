@@ -16,6 +16,9 @@
 //! | thin wall | [`thin`] | visible normals + compensation, Fresnel |
 //! | sheen | [`sheen`] | fitted heights and azimuths |
 //! | coat | [`coat`] | visible normals |
+//!
+//! Two things are shared by the models with facets: anisotropy ([`crate::microfacet`], [`aniso_albedo`]) and the thin film
+//! ([`thin_film`]), which replaces the reflectance of a facet.
 
 pub mod albedo;
 mod albedo_data;

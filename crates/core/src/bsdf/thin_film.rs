@@ -1,9 +1,9 @@
 //! Interference in a thin transparent film over a surface (KHR_materials_iridescence).
 //!
-//! Airy's sum over all orders between the two faces of the film, for both polarisations, integrated over the visible spectrum in Fourier
+//! Airy's sum (Airy 1833) over all orders between the two faces of the film, for both polarisations, integrated over the visible spectrum in Fourier
 //! space (Belcour and Barla 2017, section 4): order m takes from the spectrum the cosine transform of a band's sensitivity at m
 //! times the optical path. The Rec. 709 sensitivities under D65 are fitted by five Gaussians in wavenumber (own fit to the CIE 1931
-//! observer and D65 at 1 nm; transforms within 0.02, rms 0.005), so that each transform is a sum of damped cosines. They are
+//! observer and D65 at 1 nm, CIE 2018; transforms within 0.02, rms 0.005), so that each transform is a sum of damped cosines. They are
 //! normalised per band: what does not interfere keeps its colour, at any thickness.
 //!
 //! The base is known by what it reflects without film, S(θ), often Schlick's law. As in the extension its real index n3 comes from
