@@ -1,6 +1,8 @@
 //! The film: exact sums of camera samples. Sums are integers (fixed point, saturating and counted), so that they add in any
 //! order to the same bits; a picture then depends neither on threads nor on tiles, pauses or shards.
 
+pub mod state;
+
 use crate::rgb::Rgb;
 
 /// Fractional bits of the sums: a quantum of 6e-8, a range of 5e11.
