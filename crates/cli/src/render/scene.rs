@@ -5,10 +5,11 @@ use crate::exit::Failure;
 use crate::flags::light::LightArgs;
 use crate::flags::render::RenderArgs;
 use crate::flags::values::{MAX_SIDE, Size, Sky};
-use lumbre::CameraOptions;
 use lumbre::core::Camera;
+use lumbre::core::camera::Projection;
 use lumbre::io::Limits;
 use lumbre::scene::{Background, CompiledScene, Environment, Scene, Sun};
+use lumbre::{Aperture, Backend, CameraOptions, Focus};
 use std::time::Instant;
 
 /// A scene that is ready to be built for a device.
@@ -46,6 +47,33 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
     let load_seconds = start.elapsed().as_secs_f64();
     Ok(Opened { compiled: compiled.scene, camera: found.camera, size, sky_added, load_seconds })
 }
+
+/// Focuses an open lens on the centre of the picture, unless the flags say a distance.
+pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, camera: &mut Camera) {
+    if args.camera.aperture.is_none() {
+        return;
+    }
+    let orthographic = matches!(camera.projection, Projection::Orthographic { .. });
+    if orthographic && matches!(args.camera.aperture, Some(Aperture::FNumber(_))) {
+        console::warning("--aperture f/N means nothing to an orthographic camera: a diameter in metres does");
+    }
+    if args.camera.focus.is_some_and(|f| f != Focus::Auto) {
+        return;
+    }
+    match lumbre::focus_distance(backend, camera, [0.5, 0.5]) {
+        Some(metres) => {
+            camera.focus_distance = metres;
+            console::note(format_args!("focus: {metres:.3} m, the centre of the picture"));
+        }
+        None => {
+            camera.focus_distance = FAR;
+            console::note("focus: far away; nothing lies in the centre of the picture (--focus D)");
+        }
+    }
+}
+
+/// Distance that stands for infinity, metres: a lens of a metre blurs less than a pixel of what is beyond.
+const FAR: f32 = 1e5;
 
 /// Gives a scene without any light a gradient sky, unless the flags say what light there is; says what may surprise. Returns
 /// whether the sky was added.
