@@ -1,7 +1,7 @@
 //! `cargo xtask check`: everything that can be said of the source without running it (only the rules' own tests are run). All steps run, also after one
 //! failed, and each says how long it took.
 
-use crate::{command::cargo, licences, lint, typos};
+use crate::{command::cargo, licences, lint, scenes, typos};
 use std::time::Instant;
 
 type Step = (&'static str, fn() -> Result<(), String>);
@@ -13,6 +13,7 @@ const STEPS: &[Step] = &[
     ("lint", lint::run),
     ("typos", typos::run),
     ("licences", licences::run),
+    ("scenes", || scenes::run(&["--check".to_owned()])),
     ("clippy", || cargo("clippy", &words("--workspace --all-targets --locked -- -D warnings"), &[])),
     ("doc", || cargo("doc", &words("--workspace --no-deps --locked"), &[("RUSTDOCFLAGS", "-D warnings")])),
 ];

@@ -6,6 +6,7 @@ mod command;
 mod gallery;
 mod licences;
 mod lint;
+mod scenes;
 mod tree;
 mod typos;
 
@@ -19,6 +20,8 @@ test [ARGS]     cargo test
 lint            rules of this project: crate dependencies, unsafe, sizes, forbidden calls
 typos           spelling of .rs, .md and .toml files
 licences        licences of all dependencies
+scenes [NAME...] [--check]
+                write assets/scenes anew, or compare only
 gallery [PART]  draw the pictures of docs/gallery.md again, those whose command contains PART
 ";
 
@@ -28,6 +31,7 @@ fn main() -> ExitCode {
     let rest: Vec<String> = args.collect();
     let done = match (chore.as_str(), rest.is_empty()) {
         ("test", _) => command::cargo("test", &rest, &[]),
+        ("scenes", _) => scenes::run(&rest),
         ("gallery", _) => gallery::run(&rest),
         ("check", true) => check::run(),
         ("lint", true) => lint::run(),
