@@ -62,7 +62,7 @@ impl Outputs {
         for (path, format) in &self.0 {
             let written = match format {
                 Format::Png => write_png(path, film, exposure),
-                Format::Exr => io::write_exr(path, output::to_exr(film, metadata.to_vec())),
+                Format::Exr => io::write_exr(path, output::to_exr(film, false, metadata.to_vec())),
             };
             match written {
                 Ok(()) => console::note(format_args!("wrote {}", path.display())),
