@@ -20,8 +20,10 @@ pub mod backend;
 pub mod camera;
 pub mod cancel;
 pub mod compare;
+pub mod fingerprint;
 pub mod info;
 pub mod light;
+pub mod merge;
 pub mod output;
 pub mod render;
 
