@@ -72,7 +72,7 @@ pub enum MergeError {
         b: (PathBuf, Range<u32>),
     },
     /// Samples between two parts are missing.
-    #[error("{} are missing between {} ({}) and {} ({})", Samples(&(before.1.end..after.1.start)),
+    #[error("{} between {} ({}) and {} ({})", missing(&(before.1.end..after.1.start)),
         show(&before.0), Samples(&before.1), show(&after.0), Samples(&after.1))]
     Gap {
         /// The last part before them.
@@ -87,6 +87,10 @@ pub enum MergeError {
 
 fn show(path: &Path) -> String {
     one_line(&path.to_string_lossy())
+}
+
+fn missing(samples: &Range<u32>) -> String {
+    format!("{} {} missing", Samples(samples), if samples.len() == 1 { "is" } else { "are" })
 }
 
 fn difference(found: &Option<[String; 3]>) -> String {
