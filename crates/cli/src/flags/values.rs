@@ -5,6 +5,7 @@ use lumbre::core::color::{Exposure, srgb_decode_table};
 use lumbre::core::film::Crop;
 use lumbre::core::math::Vec3;
 use lumbre::core::settings::RenderSettings;
+use lumbre::scene::Sun;
 use lumbre::{Aperture, Focus};
 use std::fmt;
 use std::path::Path;
@@ -218,12 +219,6 @@ pub(crate) struct SunFlag {
     pub(crate) strength: f32,
 }
 
-impl SunFlag {
-    /// Illuminance of the sun beside the gradient sky, whose mean radiance is 1 and which alone gives the ground nearly 4 lux: on a
-    /// clear day the sun gives some four to five times as much as the sky.
-    pub(crate) const STRENGTH: f32 = 15.0;
-}
-
 impl fmt::Display for SunFlag {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&joined(&[self.elevation_deg, self.azimuth_deg, self.strength]))
@@ -233,7 +228,7 @@ impl fmt::Display for SunFlag {
 /// `ELEV,AZIM[,STRENGTH]`.
 pub(crate) fn sun(text: &str) -> Result<SunFlag, String> {
     let (elevation_deg, azimuth_deg, strength) = match numbers(text)?[..] {
-        [e, a] => (e, a, SunFlag::STRENGTH),
+        [e, a] => (e, a, Sun::STRENGTH),
         [e, a, s] => (e, a, s),
         _ => return Err("expected ELEV,AZIM or ELEV,AZIM,STRENGTH".into()),
     };
@@ -343,7 +338,7 @@ mod tests {
     #[test]
     fn the_sun_has_a_place_and_a_strength() {
         let s = sun("-5,200").unwrap();
-        assert_eq!((s.elevation_deg, s.azimuth_deg, s.strength), (-5.0, 200.0, SunFlag::STRENGTH));
+        assert_eq!((s.elevation_deg, s.azimuth_deg, s.strength), (-5.0, 200.0, Sun::STRENGTH));
         assert_eq!(sun("45,-30,100").unwrap().strength, 100.0);
         for wrong in ["91,0", "45", "45,0,-1", "45,0,1,2"] {
             assert!(sun(wrong).is_err(), "{wrong}");
