@@ -10,6 +10,7 @@ pub(crate) mod render;
 pub(crate) mod replay;
 pub(crate) mod run;
 pub(crate) mod sampling;
+pub(crate) mod targets;
 pub(crate) mod values;
 
 use clap::{Parser, Subcommand};

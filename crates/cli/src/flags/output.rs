@@ -10,7 +10,8 @@ use std::path::PathBuf;
 #[command(next_help_heading = "Picture")]
 pub(crate) struct OutputArgs {
     /// File to write: .png (8-bit sRGB) or .exr (linear, 32-bit floats, with layers). May be given several times.
-    #[arg(short, long, value_name = "FILE", required_unless_present = "pixel")]
+    /// [default: the scene's name with .png, beside it or in this folder; never an existing file]
+    #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
 
     /// Columns and rows of the picture, up to 32768 each. [default: 720 rows in the shape that the camera was framed for,

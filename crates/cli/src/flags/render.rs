@@ -7,6 +7,7 @@ use super::output::OutputArgs;
 use super::replay::ReplayArgs;
 use super::run::RunArgs;
 use super::sampling::SamplingArgs;
+use super::targets::TargetArgs;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -39,6 +40,8 @@ pub(crate) struct RenderArgs {
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) targets: TargetArgs,
     #[command(flatten)]
     pub(crate) sampling: SamplingArgs,
     #[command(flatten)]

@@ -9,6 +9,7 @@ use lumbre::scene::Sun;
 use lumbre::{Aperture, Focus};
 use std::fmt;
 use std::path::Path;
+use std::time::Duration;
 
 /// Columns and rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -255,6 +256,35 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
     count.ok_or_else(|| format!("{text:?} is not a size such as 800M or 16G"))
 }
 
+/// A length of time, such as `30s`, `1.5min` or `1h30min`: numbers with units, added up.
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
+    let wrong = || format!("{text:?} is not a time such as 30s, 500ms, 1.5min or 1h30min");
+    let (mut rest, mut seconds) = (text.trim(), 0.0);
+    while !rest.is_empty() {
+        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or_else(wrong)?;
+        let (number, unit) = rest.split_at(digits);
+        let letters = unit.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(unit.len());
+        let (unit, after) = unit.split_at(letters);
+        let one = match unit {
+            "ms" => 1e-3,
+            "s" => 1.0,
+            "min" | "m" => 60.0,
+            "h" => 3600.0,
+            _ => return Err(wrong()),
+        };
+        seconds += number.parse::<f64>().map_err(|_| wrong())? * one;
+        rest = after;
+    }
+    // Beyond a century it is a mistake.
+    if seconds > 0.0 && seconds < 3.2e9 { Ok(Duration::from_secs_f64(seconds)) } else { Err(wrong()) }
+}
+
+/// An error that a picture may have: above 0.
+pub(crate) fn error(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
+    number.ok_or_else(|| format!("{text:?} is not a number above 0, such as 0.005"))
+}
+
 /// A number of things.
 pub(crate) fn count(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("{text:?} is not a number from 0"))
@@ -313,6 +343,22 @@ mod tests {
         for wrong in ["91,0", "45", "45,0,-1", "45,0,1,2"] {
             assert!(sun(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn times_have_units_and_errors_are_positive() {
+        let ms = |t: &str| duration(t).map(|d| d.as_millis()).map_err(drop);
+        assert_eq!(
+            ["250ms", "30s", "1.5min", "2m", "1h"].map(ms),
+            [250, 30_000, 90_000, 120_000, 3_600_000].map(Ok)
+        );
+        assert_eq!(ms("1h30min"), Ok(5_400_000));
+        for wrong in ["", "30", "s", "-1s", "1d", "1s2", "1.2.3s", "0s", "1e99s", "99999999h", "3 s", "nans"]
+        {
+            assert!(duration(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(error("5e-3"), Ok(0.005));
+        assert!(["0", "-1", "nan", "inf", "x"].into_iter().all(|t| error(t).is_err()));
     }
 
     #[test]

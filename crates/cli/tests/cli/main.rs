@@ -13,4 +13,5 @@ mod picture;
 mod replay;
 mod running;
 mod sampling;
+mod targets;
 mod usage;
