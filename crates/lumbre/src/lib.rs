@@ -49,12 +49,14 @@ pub use lumbre_scene as scene;
 
 /// What most programs need.
 pub mod prelude {
+    pub use crate::output::Look;
     pub use crate::{
         Backend, CameraChoice, CameraOptions, CancelToken, Device, LoadOptions, Outcome, Targets,
     };
     pub use lumbre_core::color::Exposure;
     pub use lumbre_core::control::{Control, Progress};
     pub use lumbre_core::settings::{RenderSettings, View};
+    pub use lumbre_core::tone::ToneCurve;
     pub use lumbre_core::{Camera, Film, Rgb};
     pub use lumbre_scene::Scene;
 }

@@ -105,7 +105,7 @@ fn a_scene_brings_its_sky_and_sun_and_flags_stand_above_them() {
     close(of(&format!("{DOWN} --sun 90,0,0")), sky);
     let env = dir.path().join("env.exr");
     let layers = vec![ExrLayer::rgb("", [Rgb::WHITE; 8].into_iter(), false)];
-    write_exr(&env, ExrImage { width: 4, height: 2, layers, metadata: vec![] }).unwrap();
+    write_exr(&env, ExrImage { width: 4, height: 2, layers, ..ExrImage::default() }).unwrap();
     close(of(&format!("{DOWN} --env {}", env.display())), 0.5);
 }
 
