@@ -10,6 +10,7 @@ mod light;
 mod limits;
 mod loading;
 mod merge;
+mod openexr;
 mod output;
 mod picture;
 mod replay;
