@@ -10,7 +10,7 @@
 //! let view = View { camera: found.camera, settings: RenderSettings::default(), frame: 0 };
 //! let backend = lumbre::prepare(compiled, Device::Auto)?;
 //! let mut film = Film::new(800, 600);
-//! lumbre::render(&*backend, &view, 0..64, &mut film, &());
+//! lumbre::render(&*backend, &view, Targets::spp(64), &mut film, &());
 //! let picture: Vec<u8> = lumbre::output::to_srgb8(&film, Exposure::Auto);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -20,21 +20,27 @@ pub mod backend;
 pub mod camera;
 pub mod cancel;
 pub mod compare;
+pub mod estimate;
+pub mod fingerprint;
 pub mod info;
 pub mod light;
+pub mod merge;
 pub mod output;
 pub mod render;
+pub mod targets;
 
 pub use backend::{Backend, Device, DeviceError, prepare, prepare_cpu};
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,
 };
 pub use cancel::{CancelToken, Watched};
+pub use estimate::Estimator;
 pub use info::{Hint, HintKind, InfoError, SceneInfo, info};
 pub use light::{LightKinds, light_kinds};
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
 pub use lumbre_scene::{CompileError, Compiled, compile};
-pub use render::render;
+pub use render::{Watch, render};
+pub use targets::{Ended, Outcome, SoFar, Targets};
 
 pub use lumbre_core as core;
 pub use lumbre_cpu as cpu;
@@ -43,10 +49,14 @@ pub use lumbre_scene as scene;
 
 /// What most programs need.
 pub mod prelude {
-    pub use crate::{Backend, CameraChoice, CameraOptions, CancelToken, Device, LoadOptions};
+    pub use crate::output::Look;
+    pub use crate::{
+        Backend, CameraChoice, CameraOptions, CancelToken, Device, LoadOptions, Outcome, Targets,
+    };
     pub use lumbre_core::color::Exposure;
     pub use lumbre_core::control::{Control, Progress};
     pub use lumbre_core::settings::{RenderSettings, View};
+    pub use lumbre_core::tone::ToneCurve;
     pub use lumbre_core::{Camera, Film, Rgb};
     pub use lumbre_scene::Scene;
 }
