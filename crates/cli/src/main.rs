@@ -8,6 +8,8 @@ mod flags;
 mod info;
 mod interrupt;
 mod memory;
+mod merge;
+mod outputs;
 mod progress;
 mod render;
 
@@ -35,6 +37,7 @@ fn run(command: Command) -> Result<Code, Failure> {
         Command::Render(mut args) => render::run(&mut args),
         Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Merge(args) => merge::run(&args),
     }
 }
 

@@ -6,10 +6,9 @@ use lumbre::core::Film;
 use lumbre::scene::CompiledScene;
 use std::fs;
 
-/// Bytes that the planes of an output take while it is put together, per pixel.
-pub(crate) const PNG_BYTES_PER_PIXEL: u64 = 12 + 3;
-/// As above: 15 planes of floats, once as such and once as the file's rows.
-pub(crate) const EXR_BYTES_PER_PIXEL: u64 = 2 * 15 * 4;
+/// Bytes that the planes of an EXR take while it is put together, per pixel: 16 planes of floats, once as such and once as the
+/// file's rows.
+pub(crate) const EXR_BYTES_PER_PIXEL: u64 = 2 * 16 * 4;
 
 /// What a picture takes.
 #[derive(Clone, Copy, Debug)]

@@ -21,8 +21,10 @@ pub mod camera;
 pub mod cancel;
 pub mod compare;
 pub mod estimate;
+pub mod fingerprint;
 pub mod info;
 pub mod light;
+pub mod merge;
 pub mod output;
 pub mod render;
 pub mod targets;
@@ -47,12 +49,14 @@ pub use lumbre_scene as scene;
 
 /// What most programs need.
 pub mod prelude {
+    pub use crate::output::Look;
     pub use crate::{
         Backend, CameraChoice, CameraOptions, CancelToken, Device, LoadOptions, Outcome, Targets,
     };
     pub use lumbre_core::color::Exposure;
     pub use lumbre_core::control::{Control, Progress};
     pub use lumbre_core::settings::{RenderSettings, View};
+    pub use lumbre_core::tone::ToneCurve;
     pub use lumbre_core::{Camera, Film, Rgb};
     pub use lumbre_scene::Scene;
 }

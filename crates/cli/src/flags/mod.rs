@@ -5,6 +5,7 @@ pub(crate) mod compare;
 pub(crate) mod info;
 pub(crate) mod light;
 pub(crate) mod loading;
+pub(crate) mod merge;
 pub(crate) mod output;
 pub(crate) mod render;
 pub(crate) mod replay;
@@ -30,6 +31,7 @@ Examples:
   lumbre render scene.gltf -o picture.exr --spp 256 --sky gradient --sun 50,120
   lumbre info scene.glb
   lumbre compare reference.exr picture.exr
+  lumbre merge picture.exr part-1.exr part-2.exr
 
 `lumbre COMMAND --help` says more.";
 
@@ -45,4 +47,7 @@ pub(crate) enum Command {
     /// Measure how much a picture differs from a reference.
     #[command(after_help = compare::EXAMPLES)]
     Compare(compare::CompareArgs),
+    /// Add parts of one render, made apart, to the picture of one run.
+    #[command(after_help = merge::EXAMPLES)]
+    Merge(Box<merge::MergeArgs>),
 }

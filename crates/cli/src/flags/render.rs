@@ -3,12 +3,13 @@
 use super::camera::CameraArgs;
 use super::light::LightArgs;
 use super::loading::LoadingArgs;
-use super::output::OutputArgs;
+use super::output::{Background, OutputArgs};
 use super::replay::ReplayArgs;
 use super::run::RunArgs;
 use super::sampling::SamplingArgs;
 use super::targets::TargetArgs;
 use clap::Args;
+use lumbre::core::settings::RenderSettings;
 use std::path::PathBuf;
 
 /// Shown below the flags.
@@ -54,4 +55,12 @@ pub(crate) struct RenderArgs {
     pub(crate) replay: ReplayArgs,
     #[command(flatten)]
     pub(crate) loading: LoadingArgs,
+}
+
+impl RenderArgs {
+    /// What the integrator honours.
+    pub(crate) fn settings(&self) -> RenderSettings {
+        let transparent_background = self.output.background == Background::Transparent;
+        RenderSettings { transparent_background, ..self.sampling.settings() }
+    }
 }

@@ -5,6 +5,7 @@ use lumbre::core::color::{Exposure, srgb_decode_table};
 use lumbre::core::film::Crop;
 use lumbre::core::math::Vec3;
 use lumbre::core::settings::RenderSettings;
+use lumbre::output::Look;
 use lumbre::scene::Sun;
 use lumbre::{Aperture, Focus};
 use std::fmt;
@@ -168,6 +169,19 @@ pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
             _ => Err("expected `auto`, `thesis` or stops from -100 to 100".into()),
         },
     }
+}
+
+/// `--vignette`.
+pub(crate) fn vignette(text: &str) -> Result<f32, String> {
+    finite(text).and_then(|v| if (0.0..=1.0).contains(&v) { Ok(v) } else { Err("expected 0 to 1".into()) })
+}
+
+/// `--aberration`, per cent.
+pub(crate) fn aberration(text: &str) -> Result<f32, String> {
+    let most = Look::MAX_ABERRATION;
+    let in_range =
+        |v: f32| if v.abs() <= most { Ok(v) } else { Err(format!("expected -{most} to {most} per cent")) };
+    finite(text).and_then(in_range)
 }
 
 /// `--sky`.
@@ -359,6 +373,14 @@ mod tests {
         }
         assert_eq!(error("5e-3"), Ok(0.005));
         assert!(["0", "-1", "nan", "inf", "x"].into_iter().all(|t| error(t).is_err()));
+    }
+
+    #[test]
+    fn lenses_have_bounds() {
+        assert_eq!((vignette("0.5"), vignette("1")), (Ok(0.5), Ok(1.0)));
+        assert_eq!((aberration("-50"), aberration("1.5")), (Ok(-50.0), Ok(1.5)));
+        assert!(vignette("1.1").is_err() && vignette("-0.1").is_err() && vignette("nan").is_err());
+        assert!(aberration("51").is_err() && aberration("inf").is_err());
     }
 
     #[test]

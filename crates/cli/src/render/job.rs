@@ -1,16 +1,18 @@
 //! One render from the first sample to the files.
 
-use super::outputs::{self, Outputs};
+use super::outputs;
 use super::report;
 use super::saving::Saver;
 use crate::exit::{Code, Failure};
 use crate::flags::render::RenderArgs;
 use crate::interrupt::{self, Phase};
+use crate::outputs::{Developed, Outputs, PartOf};
 use crate::progress::stats::{Memory, Stats};
 use crate::progress::{Finish, Reporter, Start};
 use crate::{console, memory};
 use lumbre::core::control::Control;
 use lumbre::core::film::Crop;
+use lumbre::fingerprint::{Fingerprint, SceneHash};
 use lumbre::prelude::*;
 use lumbre::{Ended, Estimator, SoFar, Watch};
 use std::sync::atomic::AtomicBool;
@@ -25,6 +27,8 @@ pub(super) struct Job<'a> {
     pub(super) size: [u32; 2],
     /// What is rendered of it.
     pub(super) part: Crop,
+    /// If the picture is to carry exact sums.
+    pub(super) scene: Option<SceneHash>,
     pub(super) sky_added: bool,
     /// When the command began.
     pub(super) began: Instant,
@@ -42,6 +46,7 @@ impl Job<'_> {
     /// Renders and writes.
     pub(super) fn picture(&self, prepared: &Prepared<'_>, cancel: &CancelToken) -> Result<Code, Failure> {
         let targets = self.args.targets.targets(self.began.elapsed());
+        let targets = targets.from_sample(self.args.output.first_sample.unwrap_or(0));
         let mut film = Film::window(self.size, self.part);
         let start = Start {
             device: prepared.backend.device(),
@@ -71,7 +76,8 @@ impl Job<'_> {
         report::black(&film, &self.args.scene);
         report::ended(&outcome, &targets);
         let start = Instant::now();
-        self.write(&film, outcome.spp, interrupted.then_some(outcome.progress.samples))?;
+        let unfinished = interrupted.then_some(outcome.progress.samples);
+        self.developed(&film, outcome.spp, unfinished, |d| self.outputs.write(d))?;
         let write_seconds = start.elapsed().as_secs_f64();
         let stats = self.args.run.stats.then(|| self.stats(prepared, &film));
         reporter.finish(&Finish {
@@ -98,7 +104,9 @@ impl Job<'_> {
         watchers: &Watchers<'_>,
     ) -> Outcome {
         let busy = AtomicBool::new(false);
-        let save = |film: &Film, so_far: &SoFar| self.write(film, so_far.spp, Some(so_far.progress.samples));
+        let save = |film: &Film, so_far: &SoFar| {
+            self.developed(film, so_far.spp, Some(so_far.progress.samples), |d| self.outputs.save(d))
+        };
         // The scope waits for a file that is still being written.
         thread::scope(|scope| {
             let saver = self.args.targets.save_every.map(|every| Saver::new(every, scope, &busy, &save));
@@ -107,11 +115,21 @@ impl Job<'_> {
         })
     }
 
-    /// Writes the outputs; `unfinished`: the camera samples after which that is done too early.
-    fn write(&self, film: &Film, spp: u32, unfinished: Option<u64>) -> Result<(), Failure> {
+    /// Writes the outputs through `write`; `unfinished`: the camera samples after which that is done too early.
+    fn developed(
+        &self,
+        film: &Film,
+        spp: u32,
+        unfinished: Option<u64>,
+        write: impl Fn(&Developed<'_>) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         let mut metadata = outputs::metadata(self.args, self.sky_added, unfinished);
         metadata.push(("lumbre.spp".into(), spp.to_string()));
-        self.outputs.write(film, self.args.output.exposure, &metadata)
+        let part = self.scene.map(|scene| PartOf {
+            fingerprint: Fingerprint::new(scene, &self.view, self.size, self.part),
+            first_sample: self.args.output.first_sample.unwrap_or(0),
+        });
+        write(&Developed { film, metadata: &metadata, part })
     }
 
     fn stats(&self, prepared: &Prepared<'_>, film: &Film) -> Stats {

@@ -12,11 +12,12 @@ use crate::exit::{Code, Failure};
 use crate::flags::render::RenderArgs;
 use crate::flags::values::Size;
 use crate::memory::Picture;
+use crate::outputs::Outputs;
 use crate::{console, interrupt};
 use job::{Job, Prepared};
 use lumbre::core::film::Crop;
+use lumbre::fingerprint::SceneHash;
 use lumbre::prelude::*;
-use outputs::Outputs;
 use scene::Opened;
 use std::time::Instant;
 
@@ -30,7 +31,7 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         args.output.output.push(naming::default_output(&args.scene));
     }
     let args = &*args;
-    let outputs = if args.replay.pixel.is_some() { Outputs::none() } else { Outputs::check(args)? };
+    let outputs = if args.replay.pixel.is_some() { Outputs::default() } else { outputs::check(args)? };
     let camera = args.camera.options()?;
     if let Some(Size(size)) = args.output.size {
         picture(args, &outputs, args.camera.part(size)?).check(args.run.memory_limit)?;
@@ -44,8 +45,9 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         let part = args.camera.part(size)?;
         let scene_bytes = compiled.bytes();
         picture(args, &outputs, part).check_with(&compiled, args.run.memory_limit)?;
-        let view = View { camera, settings: args.sampling.settings(), frame: 0 };
-        let mut job = Job { args, outputs, view, size, part, sky_added, began };
+        let view = View { camera, settings: args.settings(), frame: 0 };
+        let scene = args.output.keeps_sums().then(|| SceneHash::new(&compiled));
+        let mut job = Job { args, outputs, view, size, part, scene, sky_added, began };
         let say = |backend: &dyn Backend, why| {
             console::note(format_args!("device: {} ({why})", backend.device()));
         };
@@ -67,5 +69,9 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
 /// What a picture of this size will take.
 fn picture(args: &RenderArgs, outputs: &Outputs, part: Crop) -> Picture {
     let saved = args.targets.save_every.is_some();
-    Picture { size: part.size, output_per_pixel: outputs.bytes_per_pixel(), films: if saved { 2 } else { 1 } }
+    Picture {
+        size: part.size,
+        output_per_pixel: outputs.bytes_per_pixel(args.output.keeps_sums()),
+        films: if saved { 2 } else { 1 },
+    }
 }

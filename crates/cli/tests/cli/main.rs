@@ -9,6 +9,7 @@ mod interrupt;
 mod light;
 mod limits;
 mod loading;
+mod output;
 mod picture;
 mod replay;
 mod running;
