@@ -1,7 +1,6 @@
 //! What decides a picture besides the number of its samples, as 128 bits: parts with the same fingerprint are of one render
-//! and may be added. XXH3 (Collet 2019): fast and stable, but no protection against somebody who wants two renders to agree.
+//! and may be added. XXH3 (of xxHash 0.8): fast and stable, but no protection against somebody who wants two renders to agree.
 
-use bytemuck::{NoUninit, bytes_of, cast_slice};
 use lumbre_core::film::Crop;
 use lumbre_core::settings::View;
 use lumbre_scene::CompiledScene;
@@ -64,58 +63,8 @@ pub struct SceneHash(u128);
 impl SceneHash {
     /// Of all arrays of a scene, texels too.
     pub fn new(scene: &CompiledScene) -> Self {
-        // All fields by name, so that none is forgotten.
-        let CompiledScene {
-            positions,
-            normals,
-            vertices,
-            triangles,
-            triangle_materials,
-            meshes,
-            emissive_ranks,
-            instances,
-            transforms,
-            materials,
-            lobes,
-            textures,
-            texels,
-            lights,
-            near_light_cdf,
-            far_light_cdf,
-            triangle_lights,
-            punctual_lights,
-            sun,
-            environment,
-            environment_pixels,
-            environment_row_cdf,
-            environment_cell_cdf,
-            bounds,
-        } = scene;
         let mut hasher = Sections::default();
-        hasher.array("positions", positions);
-        hasher.array("normals", normals);
-        hasher.array("vertices", vertices);
-        hasher.array("triangles", triangles);
-        hasher.array("triangle_materials", triangle_materials);
-        hasher.array("meshes", meshes);
-        hasher.array("emissive_ranks", emissive_ranks);
-        hasher.array("instances", instances);
-        hasher.array("transforms", transforms);
-        hasher.array("materials", materials);
-        hasher.array("lobes", lobes);
-        hasher.array("textures", textures);
-        hasher.array("texels", texels);
-        hasher.array("lights", lights);
-        hasher.array("near_light_cdf", near_light_cdf);
-        hasher.array("far_light_cdf", far_light_cdf);
-        hasher.array("triangle_lights", triangle_lights);
-        hasher.array("punctual_lights", punctual_lights);
-        hasher.add("sun", bytes_of(sun));
-        hasher.add("environment", bytes_of(environment));
-        hasher.array("environment_pixels", environment_pixels);
-        hasher.array("environment_row_cdf", environment_row_cdf);
-        hasher.array("environment_cell_cdf", environment_cell_cdf);
-        hasher.add("bounds", bytes_of(bounds));
+        scene.sections().into_iter().for_each(|(name, bytes)| hasher.add(name, bytes));
         SceneHash(hasher.finish())
     }
 }
@@ -130,9 +79,6 @@ impl Sections {
             self.0.write(&(part.len() as u64).to_le_bytes());
             self.0.write(part);
         }
-    }
-    fn array<T: NoUninit>(&mut self, name: &str, values: &[T]) {
-        self.add(name, cast_slice(values));
     }
     fn finish(&self) -> u128 {
         self.0.finish_128()

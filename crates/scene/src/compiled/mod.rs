@@ -5,6 +5,7 @@ pub mod lights;
 pub mod material;
 pub mod texture;
 
+use bytemuck::{bytes_of, cast_slice};
 use geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex};
 use lights::{EnvironmentRecord, LightGroup, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord};
 use lumbre_core::Rgb;
@@ -110,8 +111,8 @@ impl CompiledScene {
         cdf[at + 1] - cdf[at]
     }
 
-    /// Memory that the arrays hold, bytes.
-    pub fn bytes(&self) -> u64 {
+    /// All that a scene is, field by field: names, and values as bytes.
+    pub fn sections(&self) -> Vec<(&'static str, &[u8])> {
         // All fields by name, so that none is forgotten.
         let CompiledScene {
             positions,
@@ -132,37 +133,44 @@ impl CompiledScene {
             far_light_cdf,
             triangle_lights,
             punctual_lights,
-            sun: _,
-            environment: _,
+            sun,
+            environment,
             environment_pixels,
             environment_row_cdf,
             environment_cell_cdf,
-            bounds: _,
+            bounds,
         } = self;
-        let parts = [
-            size_of_val(&positions[..]),
-            size_of_val(&normals[..]),
-            size_of_val(&vertices[..]),
-            size_of_val(&triangles[..]),
-            size_of_val(&triangle_materials[..]),
-            size_of_val(&meshes[..]),
-            size_of_val(&emissive_ranks[..]),
-            size_of_val(&instances[..]),
-            size_of_val(&transforms[..]),
-            size_of_val(&materials[..]),
-            size_of_val(&lobes[..]),
-            size_of_val(&textures[..]),
-            size_of_val(&texels[..]),
-            size_of_val(&lights[..]),
-            size_of_val(&near_light_cdf[..]),
-            size_of_val(&far_light_cdf[..]),
-            size_of_val(&triangle_lights[..]),
-            size_of_val(&punctual_lights[..]),
-            size_of_val(&environment_pixels[..]),
-            size_of_val(&environment_row_cdf[..]),
-            size_of_val(&environment_cell_cdf[..]),
-        ];
-        parts.into_iter().map(|n| n as u64).sum()
+        vec![
+            ("positions", cast_slice(positions)),
+            ("normals", cast_slice(normals)),
+            ("vertices", cast_slice(vertices)),
+            ("triangles", cast_slice(triangles)),
+            ("triangle_materials", cast_slice(triangle_materials)),
+            ("meshes", cast_slice(meshes)),
+            ("emissive_ranks", cast_slice(emissive_ranks)),
+            ("instances", cast_slice(instances)),
+            ("transforms", cast_slice(transforms)),
+            ("materials", cast_slice(materials)),
+            ("lobes", cast_slice(lobes)),
+            ("textures", cast_slice(textures)),
+            ("texels", cast_slice(texels)),
+            ("lights", cast_slice(lights)),
+            ("near_light_cdf", cast_slice(near_light_cdf)),
+            ("far_light_cdf", cast_slice(far_light_cdf)),
+            ("triangle_lights", cast_slice(triangle_lights)),
+            ("punctual_lights", cast_slice(punctual_lights)),
+            ("sun", bytes_of(sun)),
+            ("environment", bytes_of(environment)),
+            ("environment_pixels", cast_slice(environment_pixels)),
+            ("environment_row_cdf", cast_slice(environment_row_cdf)),
+            ("environment_cell_cdf", cast_slice(environment_cell_cdf)),
+            ("bounds", bytes_of(bounds)),
+        ]
+    }
+
+    /// Memory that it holds, bytes.
+    pub fn bytes(&self) -> u64 {
+        self.sections().iter().map(|(_, bytes)| bytes.len() as u64).sum()
     }
 
     /// Radius of the sphere around the bounding box, metres; 0 for an empty scene.
