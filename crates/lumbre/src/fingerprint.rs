@@ -80,7 +80,8 @@ impl SceneHash {
             textures,
             texels,
             lights,
-            light_cdf,
+            near_light_cdf,
+            far_light_cdf,
             triangle_lights,
             punctual_lights,
             sun,
@@ -105,7 +106,8 @@ impl SceneHash {
         hasher.array("textures", textures);
         hasher.array("texels", texels);
         hasher.array("lights", lights);
-        hasher.array("light_cdf", light_cdf);
+        hasher.array("near_light_cdf", near_light_cdf);
+        hasher.array("far_light_cdf", far_light_cdf);
         hasher.array("triangle_lights", triangle_lights);
         hasher.array("punctual_lights", punctual_lights);
         hasher.add("sun", bytes_of(sun));

@@ -230,7 +230,9 @@ impl Merge {
         if let Some(sum) = &mut self.sum {
             let (first, _) = &self.parts[0];
             if part.fingerprint != sum.fingerprint || place(&part) != place(sum) {
-                let found = differing(&sum.metadata, &part.metadata);
+                let size = |p: &Part| p.film.picture_size().map(|n| n.to_string()).join("x");
+                let sizes = Some(["the size".into(), size(sum), size(&part)]).filter(|[_, a, b]| a != b);
+                let found = sizes.or_else(|| differing(&sum.metadata, &part.metadata));
                 return Err(MergeError::Foreign { path: path.into(), first: first.clone(), found });
             }
             let meets = |r: &Range<u32>| r.start < part.samples.end && part.samples.start < r.end;

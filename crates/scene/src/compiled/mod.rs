@@ -6,7 +6,7 @@ pub mod material;
 pub mod texture;
 
 use geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex};
-use lights::{EnvironmentRecord, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord};
+use lights::{EnvironmentRecord, LightGroup, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord};
 use lumbre_core::Rgb;
 use lumbre_core::light::environment::EnvironmentLight;
 use material::{LobesRecord, MaterialRecord};
@@ -45,10 +45,12 @@ pub struct CompiledScene {
     pub textures: Vec<TextureRecord>,
     /// RGBA8 texels, red in the low byte.
     pub texels: Vec<u32>,
-    /// Every light, in the order of `light_cdf`.
+    /// Every light: those of the scene's space, then those from far away.
     pub lights: Vec<LightRecord>,
-    /// Cumulative probability of choosing each light: `lights.len() + 1` values.
-    pub light_cdf: Vec<f32>,
+    /// Cumulative probabilities of choosing each light of [`LightGroup::Near`]: one value more than there are.
+    pub near_light_cdf: Vec<f32>,
+    /// The same for [`LightGroup::Far`].
+    pub far_light_cdf: Vec<f32>,
     /// Emissive triangles in world space.
     pub triangle_lights: Vec<TriangleLightRecord>,
     /// Point, spot and directional lights.
@@ -81,10 +83,31 @@ impl CompiledScene {
         }
     }
 
-    /// Probability that the light sampler picks this light.
+    /// Index of the first light of a group, and the table that chooses among the group.
+    #[inline]
+    pub fn light_group(&self, group: LightGroup) -> (usize, &[f32]) {
+        match group {
+            LightGroup::Near => (0, &self.near_light_cdf),
+            LightGroup::Far => (self.near_light_cdf.len().saturating_sub(1), &self.far_light_cdf),
+        }
+    }
+
+    /// Whether a group has lights.
+    #[inline]
+    pub fn has_lights(&self, group: LightGroup) -> bool {
+        self.light_group(group).1.len() > 1
+    }
+
+    /// Probability that the light sampler picks this light among those of its group.
     #[inline]
     pub fn prob_light(&self, light: u32) -> f32 {
-        self.light_cdf[light as usize + 1] - self.light_cdf[light as usize]
+        let light = light as usize;
+        let (first_far, _) = self.light_group(LightGroup::Far);
+        let (cdf, at) = match light.checked_sub(first_far) {
+            None => (&self.near_light_cdf, light),
+            Some(at) => (&self.far_light_cdf, at),
+        };
+        cdf[at + 1] - cdf[at]
     }
 
     /// Memory that the arrays hold, bytes.
@@ -105,7 +128,8 @@ impl CompiledScene {
             textures,
             texels,
             lights,
-            light_cdf,
+            near_light_cdf,
+            far_light_cdf,
             triangle_lights,
             punctual_lights,
             sun: _,
@@ -130,7 +154,8 @@ impl CompiledScene {
             size_of_val(&textures[..]),
             size_of_val(&texels[..]),
             size_of_val(&lights[..]),
-            size_of_val(&light_cdf[..]),
+            size_of_val(&near_light_cdf[..]),
+            size_of_val(&far_light_cdf[..]),
             size_of_val(&triangle_lights[..]),
             size_of_val(&punctual_lights[..]),
             size_of_val(&environment_pixels[..]),
