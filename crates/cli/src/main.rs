@@ -5,6 +5,7 @@ mod compare;
 mod console;
 mod exit;
 mod flags;
+mod generate;
 mod info;
 mod interrupt;
 mod memory;
@@ -37,6 +38,8 @@ fn run(command: Command) -> Result<Code, Failure> {
         Command::Render(mut args) => render::run(&mut args),
         Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Completions(args) => generate::completions(&args),
+        Command::Man(args) => generate::man(&args),
         Command::Merge(args) => merge::run(&args),
     }
 }

@@ -76,8 +76,8 @@ fn scene() -> Scene {
     scene.environment.background = Background::Constant(Rgb::new(0.2, 0.3, 0.5));
 
     scene.cameras.push(SceneCamera::perspective(40f32.to_radians()));
-    let eye = Mat4::look_at_rh(Vec3::new(0.0, 1.8, 6.0), Vec3::new(0.0, 0.6, 0.0), Vec3::Y).inverse();
-    scene.add_root(Node { camera: Some(CameraId(0)), transform: eye, ..Node::default() });
+    let transform = SceneCamera::looking(Vec3::new(0.0, 1.8, 6.0), Vec3::new(0.0, 0.6, 0.0));
+    scene.add_root(Node { camera: Some(CameraId(0)), transform, ..Node::default() });
     scene
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod camera;
 pub(crate) mod compare;
+pub(crate) mod generate;
 pub(crate) mod info;
 pub(crate) mod light;
 pub(crate) mod loading;
@@ -27,7 +28,8 @@ pub(crate) struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
-  lumbre render scene.glb -o picture.png
+  lumbre render scene.glb
+      until the picture is good, into scene.png
   lumbre render scene.gltf -o picture.exr --spp 256 --sky gradient --sun 50,120
   lumbre info scene.glb
   lumbre compare reference.exr picture.exr
@@ -50,4 +52,10 @@ pub(crate) enum Command {
     /// Add parts of one render, made apart, to the picture of one run.
     #[command(after_help = merge::EXAMPLES)]
     Merge(Box<merge::MergeArgs>),
+    /// Print what makes a shell complete the flags of this program.
+    #[command(after_help = generate::COMPLETIONS_EXAMPLES)]
+    Completions(generate::CompletionsArgs),
+    /// Print the manual page, or write one for each command.
+    #[command(after_help = generate::MAN_EXAMPLES)]
+    Man(generate::ManArgs),
 }
