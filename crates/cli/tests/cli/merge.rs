@@ -166,3 +166,30 @@ fn the_first_sample_chooses_the_samples() {
         lumbre(&format!("render {CORNELL} --first-sample {wrong} -o a.exr")).exits(2);
     }
 }
+
+/// What `--save-every` leaves of a run that was killed is a part like any other, and the rest can be rendered later.
+#[cfg(unix)]
+#[test]
+fn a_killed_run_can_be_completed() {
+    let dir = folder();
+    let saved = dir.path().join("saved.exr");
+    let mut c = command();
+    c.args(["render", CORNELL]).args(PICTURE.split(' ')).args(["--spp", "1000000", "--save-every", "1ms"]);
+    c.args(["--keep-sums", "-o"]).arg(&saved).stderr(std::process::Stdio::null());
+    let mut child = c.spawn().unwrap();
+    while !saved.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let part_so_far = lumbre::merge::read_part(&saved, &lumbre::io::Limits::default()).unwrap();
+    let done = part_so_far.samples.end;
+    assert!(
+        part_so_far.samples.start == 0 && part_so_far.metadata.iter().any(|(n, _)| n == "lumbre.interrupted")
+    );
+    let rest = part(dir.path(), "rest.exr", &format!("--spp 3 --first-sample {done}"));
+    let whole = part(dir.path(), "whole.exr", &format!("--spp {}", done + 3));
+    let merged = dir.path().join("merged.exr");
+    lumbre(&format!("merge {} {rest} {}", merged.display(), saved.display())).exits(0);
+    assert!(fs::read(merged).unwrap() == fs::read(whole).unwrap());
+}
