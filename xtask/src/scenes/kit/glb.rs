@@ -248,7 +248,8 @@ impl Document {
         let mut root = Map::new();
         root.insert(
             "asset".into(),
-            json!({ "version": "2.0", "generator": "Lumbre cargo xtask scenes", "copyright": "MIT OR Apache-2.0" }),
+            // A name of long standing, which files that did not change keep.
+            json!({ "version": "2.0", "generator": "Lumbre make_scenes", "copyright": "MIT OR Apache-2.0" }),
         );
         root.insert("scene".into(), json!(0));
         root.insert("scenes".into(), json!([scene]));

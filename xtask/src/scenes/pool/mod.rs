@@ -2,6 +2,9 @@
 //! room. Metres; the origin is the middle of the water's edge line at deck height, x runs along the lanes, y up. Dimensions and
 //! patterns are this project's own.
 
+#[allow(dead_code, reason = "it joins the parts when the building stands around it")]
+mod interior;
+
 use super::kit::{Document, Material, Texture, bevel_box};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
