@@ -1,6 +1,8 @@
 //! The film: exact sums of camera samples. Sums are integers (fixed point, saturating and counted), so that they add in any
 //! order to the same bits; a picture then depends neither on threads nor on tiles, pauses or shards.
 
+pub mod state;
+
 use crate::rgb::Rgb;
 
 /// Fractional bits of the sums: a quantum of 6e-8, a range of 5e11.
@@ -14,6 +16,9 @@ pub struct FilmSample {
     pub radiance: Rgb,
     /// What the ray met first; `None`: it left the scene.
     pub first_hit: Option<FirstHit>,
+    /// How much the background is covered along the straight line from the camera: 1 less the throughput with which the ray
+    /// left the scene, 1 where it did not. Its mean is the picture's alpha.
+    pub alpha: f32,
 }
 
 /// Auxiliary values of the first hit.
@@ -39,6 +44,7 @@ pub struct PixelSums {
     normal: [i64; 3],
     position: [i64; 3],
     depth: i64,
+    alpha: i64,
     samples: u32,
     hits: u32,
     saturated: u32,
@@ -47,7 +53,7 @@ pub struct PixelSums {
 /// A camera sample that was thrown away because its radiance was not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NonFinite {
-    /// Row and column (row first, so that they sort in reading order).
+    /// Row and column in the whole picture (row first, so that they sort in reading order).
     pub row_column: [u32; 2],
     /// Sample index.
     pub sample: u32,
@@ -56,11 +62,22 @@ pub struct NonFinite {
 /// Most non-finite samples that are named; all are counted.
 const NAMED: usize = 16;
 
-/// Sums over a picture.
+/// A part of a picture: a rectangle of its pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// Column and row of its top left pixel, from the top left of the picture.
+    pub origin: [u32; 2],
+    /// Columns and rows.
+    pub size: [u32; 2],
+}
+
+/// Sums over a picture, or over a part of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
     width: u32,
     height: u32,
+    picture: [u32; 2],
+    origin: [u32; 2],
     pixels: Vec<PixelSums>,
     non_finite_count: u64,
     non_finite: Vec<NonFinite>,
@@ -90,6 +107,7 @@ impl PixelSums {
         Self::add_to(&mut self.luminance, y, &mut saturated);
         let y = u128::from(y.unsigned_abs());
         self.luminance_squared = self.luminance_squared.saturating_add(y * y);
+        Self::add_to(&mut self.alpha, quantise(s.alpha), &mut saturated);
         self.samples += 1;
         if let Some(hit) = &s.first_hit {
             self.hits += 1;
@@ -123,6 +141,7 @@ impl PixelSums {
         }
         Self::add_to(&mut self.luminance, o.luminance, &mut saturated);
         Self::add_to(&mut self.depth, o.depth, &mut saturated);
+        Self::add_to(&mut self.alpha, o.alpha, &mut saturated);
         self.luminance_squared = self.luminance_squared.saturating_add(o.luminance_squared);
         self.samples += o.samples;
         self.hits += o.hits;
@@ -159,6 +178,10 @@ impl PixelSums {
     pub fn samples(&self) -> u32 {
         self.samples
     }
+    /// How much of the background is covered, 0 to 1.
+    pub fn alpha(&self) -> f32 {
+        Self::mean(self.alpha, self.samples).clamp(0.0, 1.0)
+    }
     /// Share of samples that hit something.
     pub fn coverage(&self) -> f32 {
         if self.samples == 0 { 0.0 } else { self.hits as f32 / self.samples as f32 }
@@ -181,10 +204,21 @@ impl PixelSums {
 }
 
 impl Film {
-    /// An empty film. Memory is about 150 bytes a pixel, whatever the number of samples.
+    /// An empty film. Memory is 160 bytes a pixel, whatever the number of samples.
     pub fn new(width: u32, height: u32) -> Self {
+        let size = [width, height];
+        Self::window(size, Crop { origin: [0, 0], size })
+    }
+    /// An empty film of a part of a picture. Its pixels are the same, to the bit, as in the whole.
+    ///
+    /// # Panics
+    /// If the part reaches outside.
+    pub fn window(picture: [u32; 2], crop: Crop) -> Self {
+        let Crop { origin, size: [width, height] } = crop;
+        let inside = |i: usize| crop.origin[i].checked_add(crop.size[i]).is_some_and(|end| end <= picture[i]);
+        assert!(inside(0) && inside(1), "{crop:?} reaches outside of {picture:?}");
         let pixels = vec![PixelSums::default(); width as usize * height as usize];
-        Film { width, height, pixels, non_finite_count: 0, non_finite: Vec::new() }
+        Film { width, height, picture, origin, pixels, non_finite_count: 0, non_finite: Vec::new() }
     }
     /// Bytes that a film of this size takes.
     pub fn bytes(width: u32, height: u32) -> u64 {
@@ -197,6 +231,14 @@ impl Film {
     /// Rows.
     pub fn height(&self) -> u32 {
         self.height
+    }
+    /// Columns and rows of the whole picture.
+    pub fn picture_size(&self) -> [u32; 2] {
+        self.picture
+    }
+    /// Column and row of the film's top left pixel in the whole picture.
+    pub fn origin(&self) -> [u32; 2] {
+        self.origin
     }
     /// All pixels, row by row, row 0 on top.
     pub fn pixels(&self) -> &[PixelSums] {
@@ -211,12 +253,13 @@ impl Film {
         y as usize * self.width as usize + x as usize
     }
 
-    /// Adds one camera sample. One that is not finite is counted and named instead: it enters the sample count as black, so
+    /// Adds one camera sample to a pixel of the film (its own columns and rows). One that is not finite is counted and named instead: it enters the sample count as black, so
     /// that the count stays that of the samples taken.
     pub fn add(&mut self, pixel: [u32; 2], index: u32, sample: &FilmSample) {
         let at = self.index(pixel[0], pixel[1]);
         let sums = &mut self.pixels[at];
         let finite = sample.radiance.is_finite()
+            && sample.alpha.is_finite()
             && sample.first_hit.is_none_or(|h| {
                 h.albedo.is_finite()
                     && h.depth.is_finite()
@@ -227,7 +270,8 @@ impl Film {
         } else {
             sums.add(&FilmSample::default());
             self.non_finite_count += 1;
-            self.name_non_finite(NonFinite { row_column: [pixel[1], pixel[0]], sample: index });
+            let [column, row] = [0, 1].map(|i| self.origin[i] + pixel[i]);
+            self.name_non_finite(NonFinite { row_column: [row, column], sample: index });
         }
     }
 
@@ -248,25 +292,25 @@ impl Film {
         &self.non_finite
     }
 
-    /// Adds a film of the same size, made of other samples.
+    /// Adds a film of the same part of the same picture, made of other samples.
     ///
     /// # Panics
-    /// If the sizes differ.
+    /// If it is not of the same part.
     pub fn merge(&mut self, other: &Film) {
-        assert_eq!((self.width, self.height), (other.width, other.height), "films of different sizes");
-        for (a, b) in self.pixels.iter_mut().zip(&other.pixels) {
-            a.merge(b);
-        }
-        self.merge_non_finite(other, [0, 0]);
+        let place = |f: &Film| (f.picture, f.origin, f.width, f.height);
+        assert_eq!(place(self), place(other), "films of different places");
+        self.merge_tile(other);
     }
 
-    /// Adds a smaller film (a tile) whose top left pixel lies at `at`.
+    /// Adds a film of a part (a tile) of what this one holds.
     ///
     /// # Panics
     /// If the tile reaches outside.
-    pub fn merge_tile(&mut self, tile: &Film, at: [u32; 2]) {
+    pub fn merge_tile(&mut self, tile: &Film) {
+        let at = [0, 1].map(|i| tile.origin[i].wrapping_sub(self.origin[i]));
+        let fits = |at: u32, size: u32, room: u32| at.checked_add(size).is_some_and(|end| end <= room);
         assert!(
-            at[0] + tile.width <= self.width && at[1] + tile.height <= self.height,
+            fits(at[0], tile.width, self.width) && fits(at[1], tile.height, self.height),
             "tile outside the film"
         );
         for y in 0..tile.height {
@@ -276,15 +320,8 @@ impl Film {
                 a.merge(b);
             }
         }
-        self.merge_non_finite(tile, at);
-    }
-
-    fn merge_non_finite(&mut self, other: &Film, at: [u32; 2]) {
-        self.non_finite_count += other.non_finite_count;
-        for n in &other.non_finite {
-            let row_column = [n.row_column[0] + at[1], n.row_column[1] + at[0]];
-            self.name_non_finite(NonFinite { row_column, sample: n.sample });
-        }
+        self.non_finite_count += tile.non_finite_count;
+        tile.non_finite.iter().for_each(|n| self.name_non_finite(*n));
     }
 
     /// Mean radiance of each pixel, row by row.
@@ -308,6 +345,7 @@ mod tests {
         FilmSample {
             radiance: Rgb::new(unit(i, 0), 1e3 * unit(i, 1), unit(i, 2)),
             first_hit: (!i.is_multiple_of(3)).then_some(hit),
+            alpha: unit(i, 6),
         }
     }
 
@@ -347,16 +385,33 @@ mod tests {
     #[test]
     fn non_finite_and_saturating_samples_are_counted_not_added() {
         let mut film = Film::new(4, 4);
-        let bad = FilmSample { radiance: Rgb::new(1.0, f32::NAN, 0.0), first_hit: None };
+        let bad = FilmSample { radiance: Rgb::new(1.0, f32::NAN, 0.0), first_hit: None, alpha: 0.0 };
         film.add([3, 2], 5, &bad);
-        film.add([3, 2], 6, &FilmSample { radiance: Rgb::WHITE, first_hit: None });
+        film.add([3, 2], 6, &FilmSample { radiance: Rgb::WHITE, first_hit: None, alpha: 0.5 });
         assert_eq!(film.non_finite_count(), 1);
         assert_eq!(film.non_finite(), [NonFinite { row_column: [2, 3], sample: 5 }]);
         assert_eq!(film.pixel(3, 2).radiance(), Rgb::splat(0.5));
-        film.add([0, 0], 0, &FilmSample { radiance: Rgb::splat(1e30), first_hit: None });
+        film.add([0, 0], 0, &FilmSample { radiance: Rgb::splat(1e30), first_hit: None, alpha: 1.0 });
         assert!(film.pixel(0, 0).saturated() > 0 && film.pixel(0, 0).radiance().is_finite());
-        let mut big = Film::new(8, 8);
-        big.merge_tile(&film, [4, 3]);
-        assert_eq!(big.non_finite(), [NonFinite { row_column: [5, 7], sample: 5 }]);
+    }
+
+    #[test]
+    fn a_part_keeps_its_place_in_the_picture() {
+        let mut part = Film::window([8, 8], Crop { origin: [4, 3], size: [4, 4] });
+        assert_eq!((part.width(), part.height(), part.origin(), part.picture_size()), (4, 4, [4, 3], [8, 8]));
+        part.add([3, 2], 5, &FilmSample { radiance: Rgb::new(1.0, f32::NAN, 0.0), ..sample(0) });
+        part.add([1, 0], 0, &sample(1));
+        let mut whole = Film::new(8, 8);
+        whole.merge_tile(&part);
+        assert_eq!(whole.pixel(5, 3), part.pixel(1, 0));
+        assert_eq!(whole.non_finite(), [NonFinite { row_column: [5, 7], sample: 5 }]);
+        assert!((whole.pixel(5, 3).alpha() - unit(1, 6)).abs() < 1e-6);
+    }
+
+    #[test]
+    #[should_panic(expected = "tile outside")]
+    fn a_part_of_elsewhere_is_not_added() {
+        let mut film = Film::window([8, 8], Crop { origin: [4, 4], size: [4, 4] });
+        film.merge_tile(&Film::window([8, 8], Crop { origin: [3, 4], size: [2, 2] }));
     }
 }

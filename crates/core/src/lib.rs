@@ -22,6 +22,7 @@ pub mod ray;
 pub mod rgb;
 pub mod sampler;
 pub mod settings;
+pub mod tone;
 pub mod warp;
 pub mod wavelength;
 

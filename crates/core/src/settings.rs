@@ -40,6 +40,11 @@ pub struct RenderSettings {
     pub diffuse_sampling: DiffuseSampling,
     /// Camera rays see the back faces of single-sided opaque materials too.
     pub shade_back_faces: bool,
+    /// Most that light which has scattered twice or more may add to a camera sample at a time (its largest band; hue is kept).
+    /// Takes bright dots away, and light with them: biased. `None`: no limit.
+    pub clamp: Option<f32>,
+    /// What the camera sees of sky and sun, straight or through thin panes, is left out; alpha says where. They still give light.
+    pub transparent_background: bool,
 }
 
 impl RenderSettings {
@@ -59,6 +64,8 @@ impl Default for RenderSettings {
             transmissive_shadows: TransmissiveShadows::Auto,
             diffuse_sampling: DiffuseSampling::Cosine,
             shade_back_faces: false,
+            clamp: None,
+            transparent_background: false,
         }
     }
 }

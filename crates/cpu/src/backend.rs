@@ -11,7 +11,7 @@ use crate::tracer::Tracer;
 use glam::Vec3;
 use lumbre_core::Ray;
 use lumbre_core::control::{Control, Progress};
-use lumbre_core::film::{Film, FilmSample};
+use lumbre_core::film::{Crop, Film, FilmSample};
 use lumbre_core::filter::Filter;
 use lumbre_core::medium::MediumStack;
 use lumbre_core::sampler::Sampler;
@@ -64,11 +64,12 @@ impl CpuBackend {
         Shot { tracer, view, filter, media, size }
     }
 
-    /// Adds the samples of `range` to every pixel of `film`, which has the size of the picture. Stops between rows of
+    /// Adds the samples of `range` to every pixel of `film`, the whole picture or a part of it. Stops between rows of
     /// tiles when cancelled; pixels then differ in their sample counts. Returns what was done.
     pub fn render(&self, view: &View, range: Range<u32>, film: &mut Film, control: &dyn Control) -> Progress {
         let (width, height) = (film.width(), film.height());
-        let shot = self.shot(view, [width, height]);
+        let (picture, origin) = (film.picture_size(), film.origin());
+        let shot = self.shot(view, picture);
         let columns = width.div_ceil(TILE);
         let film = Mutex::new(film);
         let (samples, rays) = (AtomicU64::new(0), AtomicU64::new(0));
@@ -77,7 +78,9 @@ impl CpuBackend {
                 return;
             }
             let at = [tile % columns * TILE, tile / columns * TILE];
-            let mut part = Film::new(TILE.min(width - at[0]), TILE.min(height - at[1]));
+            let size = [TILE.min(width - at[0]), TILE.min(height - at[1])];
+            let at = [origin[0] + at[0], origin[1] + at[1]];
+            let mut part = Film::window(picture, Crop { origin: at, size });
             let mut counter = RayCounter::default();
             let mut rows = 0;
             while rows < part.height() && !control.cancelled() {
@@ -91,7 +94,7 @@ impl CpuBackend {
                 }
             }
             let taken = u64::from(part.width()) * u64::from(rows) * range.len() as u64;
-            film.lock().expect("no tile panics while it holds the film").merge_tile(&part, at);
+            film.lock().expect("no tile panics while it holds the film").merge_tile(&part);
             control.progress(Progress {
                 samples: samples.fetch_add(taken, Ordering::Relaxed) + taken,
                 rays: rays.fetch_add(counter.rays, Ordering::Relaxed) + counter.rays,

@@ -61,6 +61,8 @@ struct Path<'a, 't, O> {
     caught: u32,
     /// Length of the rays up to the last of these, metres.
     travelled: f32,
+    /// How much the background is covered.
+    alpha: f32,
     /// Scattering events so far.
     depth: u32,
     max_depth: u32,
@@ -91,12 +93,13 @@ pub fn radiance<O: PathObserver>(
         straight: true,
         caught: 0,
         travelled: 0.0,
+        alpha: 1.0,
         depth: 0,
         max_depth: tracer.settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND),
     };
     path.begin_inside();
     let first_hit = path.run();
-    FilmSample { radiance: path.radiance, first_hit }
+    FilmSample { radiance: path.radiance, first_hit, alpha: path.alpha }
 }
 
 impl<O: PathObserver> Path<'_, '_, O> {
@@ -226,9 +229,16 @@ impl<O: PathObserver> Path<'_, '_, O> {
 
     /// Adds light met by the path itself.
     fn add(&mut self, source: &'static str, radiance: Spectrum, mis_weight: f32) {
-        let contribution = self.beta * radiance * mis_weight;
+        let contribution = self.clamped(self.beta * radiance * mis_weight, self.depth);
         self.radiance += contribution;
         self.observer.event(PathEvent::Emission { source, radiance, mis_weight, contribution });
+    }
+
+    /// Light that scattered this many times on its way to the camera, within the bound that the settings set.
+    fn clamped(&self, contribution: Spectrum, scattered: u32) -> Spectrum {
+        let Some(most) = self.tracer.settings.clamp.filter(|_| scattered > 1) else { return contribution };
+        let largest = contribution.max_component();
+        if largest > most { contribution * (most / largest) } else { contribution }
     }
 
     /// Weight of light met by scattering, whose direction light sampling draws with density `pdf_light`.
@@ -280,6 +290,13 @@ impl<O: PathObserver> Path<'_, '_, O> {
         let dir = self.ray.dir;
         self.beta *= self.media.current().transmittance(f32::INFINITY);
         self.observer.event(PathEvent::Miss { dir, beta: self.beta });
+        if self.straight {
+            // Its mean is right though a throughput may exceed 1 where a pane chose to transmit.
+            self.alpha = 1.0 - self.beta.luminance();
+            if self.tracer.settings.transparent_background {
+                return;
+            }
+        }
         let straight = self.counted_by_straight_shadows(TransmissiveShadows::Straight);
         let straight_sun = straight || self.counted_by_straight_shadows(TransmissiveShadows::Auto);
         if scene.sun.light != NONE && !straight_sun && sun(scene).contains(dir) {
@@ -321,6 +338,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
         let alone = light.is_delta || through_solid;
         let mis_weight = if alone { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
         let contribution = self.beta * f * light.radiance * transmittance * (mis_weight / light.pdf);
+        let contribution = self.clamped(contribution, self.depth + 1);
         self.radiance += contribution;
         self.observer.event(PathEvent::Light {
             light: light.light,

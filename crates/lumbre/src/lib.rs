@@ -26,7 +26,9 @@ pub mod output;
 pub mod render;
 
 pub use backend::{Backend, Device, DeviceError, prepare, prepare_cpu};
-pub use camera::{CameraChoice, CameraOptions, authored_aspect, find_camera};
+pub use camera::{
+    Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,
+};
 pub use cancel::{CancelToken, Watched};
 pub use info::{Hint, HintKind, InfoError, SceneInfo, info};
 pub use light::{LightKinds, light_kinds};

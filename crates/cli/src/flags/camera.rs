@@ -1,10 +1,11 @@
 //! Flags on where the picture is taken from.
 
-use super::values::{fov, joined, vec3};
+use super::values::{aperture, crop, focus, fov, joined, vec3};
 use crate::exit::Failure;
 use clap::Args;
+use lumbre::core::film::Crop;
 use lumbre::core::math::Vec3;
-use lumbre::{CameraChoice, CameraOptions};
+use lumbre::{Aperture, CameraChoice, CameraOptions, Focus};
 
 /// The camera.
 #[derive(Args, Debug)]
@@ -26,9 +27,38 @@ pub(crate) struct CameraArgs {
     /// Vertical field of view, degrees. An orthographic camera becomes a perspective one.
     #[arg(long, value_name = "DEG", value_parser = fov, allow_hyphen_values = true)]
     pub(crate) fov: Option<f32>,
+
+    /// Opens the lens, so that only what is in focus is sharp: `f/2.8` as on a camera with a sensor 24 mm high, or the diameter
+    /// of the lens in metres. [default: everything is sharp]
+    #[arg(long, value_name = "f/N|DIAMETER", value_parser = aperture, allow_hyphen_values = true)]
+    pub(crate) aperture: Option<Aperture>,
+
+    /// What is in focus: a distance in metres along the direction of view, or `auto`, what lies in the centre of the picture.
+    /// [default: auto]
+    #[arg(long, value_name = "D|auto", value_parser = focus, allow_hyphen_values = true, requires = "aperture")]
+    pub(crate) focus: Option<Focus>,
+
+    /// Renders only this part of the picture: column and row of its top left pixel, columns and rows. Its pixels are those of
+    /// the whole picture, to the bit.
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
+    pub(crate) crop: Option<Crop>,
 }
 
 impl CameraArgs {
+    /// The part of a picture of this size that is rendered.
+    pub(crate) fn part(&self, size: [u32; 2]) -> Result<Crop, Failure> {
+        let Some(crop) = self.crop else { return Ok(Crop { origin: [0, 0], size }) };
+        let inside =
+            (0..2).all(|i| crop.origin[i].checked_add(crop.size[i]).is_some_and(|end| end <= size[i]));
+        if inside {
+            return Ok(crop);
+        }
+        let (Crop { origin: [x, y], size: [w, h] }, [width, height]) = (crop, size);
+        Err(Failure::usage(format!(
+            "--crop {x},{y},{w},{h} reaches outside of the picture of {width}x{height}"
+        )))
+    }
+
     /// The same in the library's terms.
     pub(crate) fn options(&self) -> Result<CameraOptions, Failure> {
         if self.look_from.is_some() && self.look_from == self.look_at {
@@ -41,6 +71,8 @@ impl CameraArgs {
             look_from: self.look_from,
             look_at: self.look_at,
             fov: self.fov.map(f32::to_radians),
+            aperture: self.aperture,
+            focus: self.focus.unwrap_or_default(),
         })
     }
 
@@ -57,6 +89,9 @@ impl CameraArgs {
             ("lookFrom", self.look_from.map(point)),
             ("lookAt", self.look_at.map(point)),
             ("fov", self.fov.map(|f| f.to_string())),
+            ("aperture", self.aperture.map(|a| a.to_string())),
+            ("focus", self.focus.map(|f| f.to_string())),
+            ("crop", self.crop.map(|Crop { origin: [x, y], size: [w, h] }| format!("{x},{y},{w},{h}"))),
         ];
         all.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
     }

@@ -1,4 +1,4 @@
-//! Flags on light from far away, in the place of what the scene brings.
+//! Flags on light from far away, in the place of what the scene brings: `--sky` of its sky, `--sun` of its sun, `--env` of both.
 
 use super::values::{Sky, SunFlag, file_name, finite, not_negative, sky, sun};
 use clap::Args;

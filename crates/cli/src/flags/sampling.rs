@@ -1,6 +1,6 @@
 //! Flags on how light is sampled.
 
-use super::values::{Depth, Roulette, depth, roulette};
+use super::values::{Depth, Roulette, depth, positive, roulette};
 use clap::{Args, ValueEnum};
 use lumbre::core::bsdf::DiffuseSampling;
 use lumbre::core::filter::FilterKind;
@@ -106,6 +106,11 @@ pub(crate) struct SamplingArgs {
     #[arg(long, default_value = "cull")]
     pub(crate) back_faces: BackFaces,
 
+    /// Most that light which has scattered twice or more may add to a sample at a time, nits (biased: it takes bright dots away,
+    /// and light with them). [default: no limit]
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = positive)]
+    pub(crate) clamp: Option<f32>,
+
     /// How diffuse directions are drawn (for comparisons).
     #[arg(long, default_value = "cosine")]
     pub(crate) hemisphere: Hemisphere,
@@ -142,6 +147,8 @@ impl SamplingArgs {
                 Hemisphere::Uniform => DiffuseSampling::Uniform,
             },
             shade_back_faces: self.back_faces == BackFaces::Shade,
+            clamp: self.clamp,
+            transparent_background: false,
         }
     }
 
@@ -158,6 +165,7 @@ impl SamplingArgs {
             ("transmissiveShadows", name(self.transmissive_shadows)),
             ("backFaces", name(self.back_faces)),
             ("hemisphere", name(self.hemisphere)),
+            ("clamp", self.clamp.map_or_else(|| "off".into(), |c| c.to_string())),
         ]
     }
 }

@@ -2,8 +2,11 @@
 
 use lumbre::core::Rgb;
 use lumbre::core::color::{Exposure, srgb_decode_table};
+use lumbre::core::film::Crop;
 use lumbre::core::math::Vec3;
 use lumbre::core::settings::RenderSettings;
+use lumbre::scene::Sun;
+use lumbre::{Aperture, Focus};
 use std::fmt;
 use std::path::Path;
 
@@ -35,6 +38,11 @@ pub(crate) fn pixel(text: &str) -> Result<[u32; 2], String> {
 pub(crate) fn finite(text: &str) -> Result<f32, String> {
     let number = text.trim().parse::<f32>().ok().filter(|v| v.is_finite());
     number.ok_or_else(|| format!("{text:?} is not a number"))
+}
+
+/// A finite number above 0.
+pub(crate) fn positive(text: &str) -> Result<f32, String> {
+    finite(text).and_then(|v| if v > 0.0 { Ok(v) } else { Err(format!("{text} is not above 0")) })
 }
 
 /// A finite number that is not negative.
@@ -73,6 +81,33 @@ pub(crate) fn fov(text: &str) -> Result<f32, String> {
         Ok(degrees)
     } else {
         Err("the field of view lies between 0 and 180 degrees".into())
+    }
+}
+
+/// `f/N` or a diameter in metres.
+pub(crate) fn aperture(text: &str) -> Result<Aperture, String> {
+    match text.trim().strip_prefix(['f', 'F']).and_then(|t| t.strip_prefix('/')) {
+        Some(number) => positive(number).map(Aperture::FNumber),
+        None => positive(text)
+            .map(Aperture::Diameter)
+            .map_err(|e| format!("{e}; expected f/N, such as f/2.8, or the diameter of the lens in metres")),
+    }
+}
+
+/// `auto` or a distance in metres.
+pub(crate) fn focus(text: &str) -> Result<Focus, String> {
+    match text {
+        "auto" => Ok(Focus::Auto),
+        _ => positive(text).map(Focus::Distance).map_err(|e| format!("{e}; expected `auto` or metres")),
+    }
+}
+
+/// `X,Y,W,H`.
+pub(crate) fn crop(text: &str) -> Result<Crop, String> {
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, w, h]) if w > 0 && h > 0 => Ok(Crop { origin: [x, y], size: [w, h] }),
+        _ => Err("expected X,Y,W,H in pixels, such as 320,180,640,360".into()),
     }
 }
 
@@ -183,12 +218,6 @@ pub(crate) struct SunFlag {
     pub(crate) strength: f32,
 }
 
-impl SunFlag {
-    /// Illuminance of the sun beside the gradient sky, whose mean radiance is 1 and which alone gives the ground nearly 4 lux: on a
-    /// clear day the sun gives some four to five times as much as the sky.
-    pub(crate) const STRENGTH: f32 = 15.0;
-}
-
 impl fmt::Display for SunFlag {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&joined(&[self.elevation_deg, self.azimuth_deg, self.strength]))
@@ -198,7 +227,7 @@ impl fmt::Display for SunFlag {
 /// `ELEV,AZIM[,STRENGTH]`.
 pub(crate) fn sun(text: &str) -> Result<SunFlag, String> {
     let (elevation_deg, azimuth_deg, strength) = match numbers(text)?[..] {
-        [e, a] => (e, a, SunFlag::STRENGTH),
+        [e, a] => (e, a, Sun::STRENGTH),
         [e, a, s] => (e, a, s),
         _ => return Err("expected ELEV,AZIM or ELEV,AZIM,STRENGTH".into()),
     };
@@ -279,7 +308,7 @@ mod tests {
     #[test]
     fn the_sun_has_a_place_and_a_strength() {
         let s = sun("-5,200").unwrap();
-        assert_eq!((s.elevation_deg, s.azimuth_deg, s.strength), (-5.0, 200.0, SunFlag::STRENGTH));
+        assert_eq!((s.elevation_deg, s.azimuth_deg, s.strength), (-5.0, 200.0, Sun::STRENGTH));
         assert_eq!(sun("45,-30,100").unwrap().strength, 100.0);
         for wrong in ["91,0", "45", "45,0,-1", "45,0,1,2"] {
             assert!(sun(wrong).is_err(), "{wrong}");

@@ -11,6 +11,7 @@ use crate::flags::values::Size;
 use crate::interrupt::{self, Phase};
 use crate::progress::{Finish, Reporter, Start};
 use crate::{console, memory};
+use lumbre::core::film::Crop;
 use lumbre::prelude::*;
 use lumbre::{Watched, core::control::Control};
 use outputs::Outputs;
@@ -25,7 +26,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Code, Failure> {
     let outputs = if args.replay.pixel.is_some() { Outputs::none() } else { Outputs::check(args)? };
     let camera = args.camera.options()?;
     if let Some(Size(size)) = args.output.size {
-        memory::check(size, outputs.bytes_per_pixel(), args.run.memory_limit)?;
+        let part = args.camera.part(size)?;
+        memory::check(part.size, outputs.bytes_per_pixel(), args.run.memory_limit)?;
     }
     let cancel = interrupt::install()?;
     let threads = args.run.threads.map_or(0, usize::from); // 0: rayon counts the processors
@@ -33,21 +35,24 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Code, Failure> {
     let pool = pool.map_err(|e| Failure::new(Code::Memory, format!("cannot start the threads: {e}")))?;
     pool.install(|| {
         let Opened { compiled, camera, size, sky_added, load_seconds } = scene::open(args, &camera)?;
-        memory::check(size, outputs.bytes_per_pixel(), args.run.memory_limit)?;
+        let part = args.camera.part(size)?;
+        memory::check(part.size, outputs.bytes_per_pixel(), args.run.memory_limit)?;
         let view = View { camera, settings: args.sampling.settings(), frame: 0 };
-        let job = Job { args, outputs, view, size, sky_added };
+        let mut job = Job { args, outputs, view, size, part, sky_added };
         let say = |backend: &dyn Backend, why| {
             console::note(format_args!("device: {} ({why})", backend.device()));
         };
         if let Some(pixel) = args.replay.pixel {
             let backend = lumbre::prepare_cpu(compiled)?;
             say(&backend, "--pixel always runs there");
+            scene::focus(args, &backend, &mut job.view.camera);
             return replay::run(&job, &backend, pixel);
         }
         let start = Instant::now();
         let backend = lumbre::prepare(compiled, device)?;
         let build_seconds = start.elapsed().as_secs_f64();
         say(&*backend, why);
+        scene::focus(args, &*backend, &mut job.view.camera);
         job.picture(&*backend, &cancel, load_seconds, build_seconds)
     })
 }
@@ -58,6 +63,8 @@ struct Job<'a> {
     outputs: Outputs,
     view: View,
     size: [u32; 2],
+    /// What is rendered of it.
+    part: Crop,
     sky_added: bool,
 }
 
@@ -72,10 +79,10 @@ impl Job<'_> {
         let start = Start {
             device: backend.device(),
             threads: rayon::current_num_threads(),
-            size: self.size,
+            size: self.part.size,
             spp: self.args.sampling.spp,
         };
-        let mut film = Film::new(self.size[0], self.size[1]);
+        let mut film = Film::window(self.size, self.part);
         // From here on an interrupt saves what there is; so it must be said before anyone hears that it started.
         interrupt::enter(Phase::Rendering);
         let reporter = Reporter::begin(self.args.run.progress, start)?;
@@ -84,7 +91,7 @@ impl Job<'_> {
         reporter.rendered();
         interrupt::enter(Phase::Writing);
 
-        let wanted = u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.args.sampling.spp);
+        let wanted = film.pixels().len() as u64 * u64::from(self.args.sampling.spp);
         let interrupted = done.samples < wanted;
         if interrupted && done.samples == 0 {
             return Err(Failure::new(

@@ -4,11 +4,12 @@ use crate::console;
 use crate::exit::Failure;
 use crate::flags::light::LightArgs;
 use crate::flags::render::RenderArgs;
-use crate::flags::values::{MAX_SIDE, Size, Sky, SunFlag};
-use lumbre::CameraOptions;
-use lumbre::core::{Camera, Rgb};
+use crate::flags::values::{MAX_SIDE, Size, Sky};
+use lumbre::core::Camera;
+use lumbre::core::camera::Projection;
 use lumbre::io::Limits;
 use lumbre::scene::{Background, CompiledScene, Environment, Scene, Sun};
+use lumbre::{Aperture, Backend, CameraOptions, Focus};
 use std::time::Instant;
 
 /// A scene that is ready to be built for a device.
@@ -46,6 +47,33 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
     let load_seconds = start.elapsed().as_secs_f64();
     Ok(Opened { compiled: compiled.scene, camera: found.camera, size, sky_added, load_seconds })
 }
+
+/// Focuses an open lens on the centre of the picture, unless the flags say a distance.
+pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, camera: &mut Camera) {
+    if args.camera.aperture.is_none() {
+        return;
+    }
+    let orthographic = matches!(camera.projection, Projection::Orthographic { .. });
+    if orthographic && matches!(args.camera.aperture, Some(Aperture::FNumber(_))) {
+        console::warning("--aperture f/N means nothing to an orthographic camera: a diameter in metres does");
+    }
+    if args.camera.focus.is_some_and(|f| f != Focus::Auto) {
+        return;
+    }
+    match lumbre::focus_distance(backend, camera, [0.5, 0.5]) {
+        Some(metres) => {
+            camera.focus_distance = metres;
+            console::note(format_args!("focus: {metres:.3} m, the centre of the picture"));
+        }
+        None => {
+            camera.focus_distance = FAR;
+            console::note("focus: far away; nothing lies in the centre of the picture (--focus D)");
+        }
+    }
+}
+
+/// Distance that stands for infinity, metres: a lens of a metre blurs less than a pixel of what is beyond.
+const FAR: f32 = 1e5;
 
 /// Gives a scene without any light a gradient sky, unless the flags say what light there is; says what may surprise. Returns
 /// whether the sky was added.
@@ -99,24 +127,13 @@ fn set_environment(args: &LightArgs, limits: &Limits, environment: &mut Environm
         environment.background = Background::Map(loaded.map);
         environment.rotation = args.env_rotate.to_radians();
         environment.strength = args.env_strength;
+        // A picture of the sky has its own sun.
+        environment.sun = None;
     }
     if let Some(flag) = args.sun {
-        environment.sun = Some(sun(flag));
+        environment.sun = Some(Sun::daylight(flag.elevation_deg, flag.azimuth_deg, flag.strength));
     }
     Ok(())
-}
-
-/// Colour of the sun's light: a little warmer than the white of the picture (D65), as through some 30 degrees of air; ours.
-const SUNLIGHT: Rgb = Rgb::new(1.0, 0.93, 0.82);
-
-fn sun(flag: SunFlag) -> Sun {
-    Sun {
-        elevation: flag.elevation_deg.to_radians(),
-        // A whole turn is nothing, exactly.
-        azimuth: (flag.azimuth_deg % 360.0).to_radians(),
-        irradiance: SUNLIGHT * (flag.strength / SUNLIGHT.luminance()),
-        angular_radius: Sun::ANGULAR_RADIUS,
-    }
 }
 
 #[cfg(test)]
@@ -129,13 +146,5 @@ mod tests {
         assert_eq!(default_size(Some(4.0 / 3.0)), [960, 720]);
         assert_eq!(default_size(Some(1e-9)), [1, 720]);
         assert_eq!(default_size(Some(1e9)), [MAX_SIDE, 720]);
-    }
-
-    #[test]
-    fn the_strength_of_the_sun_is_its_illuminance() {
-        let s = sun(SunFlag { elevation_deg: 90.0, azimuth_deg: 360.0, strength: 20.0 });
-        assert!((s.irradiance.luminance() - 20.0).abs() < 1e-4);
-        assert_eq!(s.azimuth, 0.0);
-        assert!((s.elevation - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
     }
 }

@@ -101,3 +101,77 @@ fn orthographic_cameras_show_what_their_magnification_says() {
     let (_, perspective) = ray(&format!("{path} --size 32x16 --pixel 0,0 --fov 40"));
     assert!(!close(perspective, a.1));
 }
+
+/// What is in focus keeps its edge, what is not loses it; a smaller f-number loses more.
+#[test]
+fn the_lens_blurs_what_is_not_in_focus() {
+    let dir = folder();
+    // A lamp 4 m away, across the left half of the picture: its edge is the picture.
+    let lamp = vec![
+        -2.0, -2.0, -4.0, 0.0, -2.0, -4.0, 0.0, 2.0, -4.0, -2.0, -2.0, -4.0, 0.0, 2.0, -4.0, -2.0, 2.0, -4.0,
+    ];
+    let glows = r#"{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]}}"#;
+    let scene = scene(dir.path(), &[(lamp, glows)]);
+    let edge = |flags: &str| {
+        let view = "--look-from 0,0,0 --look-at 0.05,0,-4 --fov 1.5 --size 40x2 --spp 256 --filter box --sampler sobol";
+        let image = picture(dir.path(), &format!("{scene} {view} --sky off --max-depth 0 {flags}"));
+        // Columns neither lit nor dark.
+        image.pixels[..40].iter().filter(|p| (0.02..0.98).contains(&p.g)).count()
+    };
+    assert!(edge("") <= 1, "{}", edge(""));
+    assert!(edge("--aperture 0.4 --focus 4") <= 2, "{}", edge("--aperture 0.4 --focus 4"));
+    let (open, wide) = (edge("--aperture 0.2 --focus 1"), edge("--aperture 0.4 --focus 1"));
+    assert!(open > 4 && wide > open + 4, "{open} {wide}");
+    // f = 12 mm / tan 0.75° = 916.7 mm, so that f/4.5834 is 0.2 m wide.
+    assert!(edge("--aperture f/4.5834 --focus 1").abs_diff(open) <= 1);
+}
+
+#[test]
+fn focus_is_found_in_the_centre_of_the_picture() {
+    let dir = folder();
+    let scene = scene(dir.path(), &[(square(0.0, 1.0), GREY)]);
+    let out = dir.path().join("a.png");
+    let run = |more: &str| {
+        let words = "--size 8x8 --spp 1 --sky 1,1,1 --aperture 0.01";
+        lumbre(&format!("render {scene} {words} -o {} {more}", out.display())).exits(0)
+    };
+    run("--look-from 0,3,0 --look-at 0,0,0.001").says("focus: 3.000 m");
+    run("--look-from 0,3,0 --look-at 0,0,0.001 --focus auto").says("focus: 3.000 m");
+    run("--look-from 0,3,0 --look-at 0,0,0.001 --focus 2").does_not_say("focus:");
+    run("--look-from 0,3,9 --look-at 0,4,9").says("nothing lies in the centre");
+}
+
+#[test]
+fn the_lens_flags_say_what_they_want() {
+    for (words, says) in [
+        ("--focus 2", "--aperture"),
+        ("--aperture 0", "not above 0"),
+        ("--aperture f/0", "not above 0"),
+        ("--aperture f2", "f/N"),
+        ("--aperture 0.1 --focus near", "auto"),
+        ("--aperture 0.1 --focus -1", "not above 0"),
+    ] {
+        lumbre(&format!("render {CORNELL} -o a.png {words}")).exits(2).says(says);
+    }
+}
+
+/// A crop holds the pixels of the whole picture.
+#[test]
+fn a_crop_is_cut_from_the_picture() {
+    let dir = folder();
+    let whole = picture(dir.path(), &format!("{CORNELL} --size 24x18 --spp 2"));
+    let part = picture(dir.path(), &format!("{CORNELL} --size 24x18 --spp 2 --crop 5,3,10,7"));
+    assert_eq!((part.width, part.height), (10, 7));
+    for (i, p) in part.pixels.iter().enumerate() {
+        assert_eq!(*p, whole.pixels[(3 + i / 10) * 24 + 5 + i % 10]);
+    }
+    for (words, says) in [
+        ("--size 8x8 --crop 1,1,8,7", "reaches outside"),
+        ("--size 8x8 --crop 4294967295,0,2,2", "reaches outside"),
+        ("--crop 1,1,0,7", "X,Y,W,H"),
+        ("--crop 1,1,7", "X,Y,W,H"),
+        ("--crop -1,1,7,7", "X,Y,W,H"),
+    ] {
+        lumbre(&format!("render {CORNELL} -o a.png {words}")).exits(2).says(says);
+    }
+}

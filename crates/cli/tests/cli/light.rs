@@ -86,6 +86,30 @@ fn the_sun_has_a_place_a_strength_and_a_colour() {
 }
 
 #[test]
+fn a_scene_brings_its_sky_and_sun_and_flags_stand_above_them() {
+    let dir = folder();
+    let scene = floor(dir.path());
+    let mut doc: serde_json::Value = serde_json::from_slice(&std::fs::read(&scene).unwrap()).unwrap();
+    let light = serde_json::json!({ "sky": [0.5, 0.5, 0.5], "sun": { "elevation": 90, "strength": 30 } });
+    doc["scenes"][0]["extras"] = serde_json::json!({ "lumbre": light });
+    std::fs::write(&scene, doc.to_string()).unwrap();
+    let of = |words: &str| mean(&picture(dir.path(), &format!("{scene} {words}"))).luminance();
+    let close =
+        |got: f32, expected: f32| assert!((got / expected - 1.0).abs() < 0.02, "{got}, not {expected}");
+    assert_eq!(of(UP), 0.5);
+    assert_eq!(of(&format!("{UP} --sky 2,2,2")), 2.0);
+    // The floor returns half of what falls on it, over π.
+    let sky = 0.5 * 0.5;
+    close(of(DOWN), sky + 30.0 * 0.5 / PI);
+    close(of(&format!("{DOWN} --sky off")), 30.0 * 0.5 / PI);
+    close(of(&format!("{DOWN} --sun 90,0,0")), sky);
+    let env = dir.path().join("env.exr");
+    let layers = vec![ExrLayer::rgb("", [Rgb::WHITE; 8].into_iter(), false)];
+    write_exr(&env, ExrImage { width: 4, height: 2, layers, metadata: vec![] }).unwrap();
+    close(of(&format!("{DOWN} --env {}", env.display())), 0.5);
+}
+
+#[test]
 fn a_map_surrounds_the_scene_and_turns() {
     let dir = folder();
     let scene = floor(dir.path());

@@ -126,3 +126,16 @@ fn shadows_of_glass_are_as_asked() {
     let (auto, straight, physical) = (of("auto", sky), of("straight", sky), of("physical", sky));
     assert!(straight > 0.3 && auto == physical && auto < 0.5 * straight, "{auto} {straight} {physical}");
 }
+
+#[test]
+fn the_clamp_takes_light_away_and_is_off_by_default() {
+    let dir = folder();
+    let words = format!("{CORNELL} --size 16x12 --spp 8");
+    let (free, loose) = (picture(dir.path(), &words), picture(dir.path(), &format!("{words} --clamp 1e9")));
+    let tight = picture(dir.path(), &format!("{words} --clamp 0.01"));
+    assert_eq!(free.pixels, loose.pixels);
+    assert!(mean(&tight).luminance() < 0.95 * mean(&free).luminance());
+    for wrong in ["0", "-1", "off"] {
+        lumbre(&format!("render {CORNELL} -o a.png --clamp {wrong}")).exits(2).says("--clamp");
+    }
+}

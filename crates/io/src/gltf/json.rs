@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use crate::IoError;
+use crate::warnings::Warnings;
 use gltf::json::Value;
 use lumbre_core::Rgb;
 
@@ -47,6 +48,14 @@ impl<'a> Object<'a> {
     /// The raw value under `key`.
     pub(super) fn value(&self, key: &str) -> Option<&'a Value> {
         self.value.get(key)
+    }
+
+    /// Warns of each key that is none of `known`.
+    pub(super) fn warn_of_others(&self, known: &[&str], warnings: &mut Warnings) {
+        let keys = self.value.as_object().into_iter().flat_map(|map| map.keys());
+        for key in keys.filter(|key| !known.contains(&key.as_str())) {
+            warnings.add(&self.place, format!("the key {key:?} is not known and is ignored"));
+        }
     }
 
     /// The object under `key`.

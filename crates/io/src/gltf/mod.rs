@@ -11,6 +11,7 @@ mod container;
 mod describe;
 mod document;
 mod draco;
+mod environment;
 mod extensions;
 mod images;
 mod instancing;
@@ -35,7 +36,7 @@ use accessor::Accessors;
 use buffers::Buffers;
 use document::Document;
 pub use extensions::{GLTF_EXTENSIONS, GltfExtension, Support};
-use lumbre_scene::{Environment, Scene};
+use lumbre_scene::Scene;
 use std::path::Path;
 use textures::TextureTable;
 
@@ -72,6 +73,7 @@ fn load(
     let materials = material::load_all(&doc, &mut table, &mut warnings)?;
     let lights = lights::load_all(&doc, &mut warnings)?;
     let mut graph = nodes::load(&doc, lights.len(), &options.scene, &mut warnings)?;
+    let environment = environment::load(&doc, graph.scene, &mut warnings)?;
     let shapes = morph::shapes(&doc, &mut graph.nodes);
     let accessors = Accessors { doc: &doc, buffers: &buffers };
     instancing::expand(&accessors, &mut graph.nodes, &mut warnings)?;
@@ -96,7 +98,7 @@ fn load(
         cameras: graph.cameras,
         nodes: graph.nodes,
         roots: graph.roots,
-        environment: Environment::default(),
+        environment,
     };
     Ok(Loaded { scene, warnings: warnings.into_lines() })
 }

@@ -14,6 +14,8 @@ pub(super) struct Graph {
     pub(super) nodes: Vec<Node>,
     pub(super) roots: Vec<NodeId>,
     pub(super) cameras: Vec<Camera>,
+    /// The scene that is shown, where the file has any.
+    pub(super) scene: Option<usize>,
 }
 
 /// Reads nodes, cameras and the scene to show. Node `i` of the file becomes node `i` of the scene.
@@ -31,7 +33,7 @@ pub(super) fn load(
     let instances = nodes.iter().filter(|n| n.mesh.is_some()).count() as u64;
     doc.limits.hold(Bound::Instances, doc.path, "/nodes", instances)?;
     let parentless = check_trees(doc, &nodes)?;
-    let roots = load_roots(doc, parentless, choice, warnings)?;
+    let (scene, roots) = load_roots(doc, parentless, choice, warnings)?;
     // Most cameras are named by their node only.
     for node in &nodes {
         if let Some(camera) = node.camera.and_then(|c| cameras.get_mut(c.index()))
@@ -40,7 +42,7 @@ pub(super) fn load(
             camera.name.clone_from(&node.name);
         }
     }
-    Ok(Graph { nodes, roots, cameras })
+    Ok(Graph { nodes, roots, cameras, scene })
 }
 
 fn load_node(
@@ -147,18 +149,18 @@ fn check_trees(doc: &Document, nodes: &[Node]) -> Result<Vec<NodeId>, IoError> {
     }
 }
 
-/// The nodes to show: those of the chosen scene. The default is the one that the file names, else its first, else all nodes
+/// The index of the scene to show and its nodes: those of the chosen scene. The default is the one that the file names, else its first, else all nodes
 /// without a parent.
 fn load_roots(
     doc: &Document,
     parentless: Vec<NodeId>,
     choice: &SceneChoice,
     warnings: &mut Warnings,
-) -> Result<Vec<NodeId>, IoError> {
+) -> Result<(Option<usize>, Vec<NodeId>), IoError> {
     let scenes = &doc.root.scenes;
     let index = match (choice, doc.root.scene) {
         (SceneChoice::Default, Some(i)) => i.value(),
-        (SceneChoice::Default, None) if scenes.is_empty() => return Ok(parentless),
+        (SceneChoice::Default, None) if scenes.is_empty() => return Ok((None, parentless)),
         (SceneChoice::Default, None) => 0,
         _ => chosen_scene(doc, choice)?,
     };
@@ -175,7 +177,7 @@ fn load_roots(
             roots.push(NodeId(node.value() as u32));
         }
     }
-    Ok(roots)
+    Ok((Some(index), roots))
 }
 
 /// The index of the scene that the caller asked for.

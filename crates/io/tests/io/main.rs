@@ -2,6 +2,7 @@
 
 mod common;
 mod compressed;
+mod gltf_environment;
 mod gltf_errors;
 mod gltf_geometry;
 mod gltf_instances;

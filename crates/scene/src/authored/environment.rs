@@ -44,6 +44,24 @@ pub struct Sun {
 impl Sun {
     /// Half the mean angular diameter of the sun as seen from Earth (0.533°), radians.
     pub const ANGULAR_RADIUS: f32 = 0.004_651;
+
+    /// Illuminance of the sun beside the gradient sky, whose mean radiance is 1 and which alone gives the ground nearly 4 lux: on a
+    /// clear day the sun gives some four to five times as much as the sky.
+    pub const STRENGTH: f32 = 15.0;
+
+    /// Colour of the sun's light: a little warmer than the white of the picture (D65), as through some 30 degrees of air; ours.
+    const COLOR: Rgb = Rgb::new(1.0, 0.93, 0.82);
+
+    /// The sun that flags and scene files ask for: angles in degrees, and the illuminance in lux on a surface that faces it.
+    pub fn daylight(elevation_deg: f32, azimuth_deg: f32, strength: f32) -> Sun {
+        Sun {
+            elevation: elevation_deg.to_radians(),
+            // A whole turn is nothing, exactly.
+            azimuth: (azimuth_deg % 360.0).to_radians(),
+            irradiance: Sun::COLOR * (strength / Sun::COLOR.luminance()),
+            angular_radius: Sun::ANGULAR_RADIUS,
+        }
+    }
 }
 
 /// All light from far away.
@@ -62,5 +80,18 @@ pub struct Environment {
 impl Default for Environment {
     fn default() -> Self {
         Environment { background: Background::Black, rotation: 0.0, strength: 1.0, sun: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_strength_of_the_sun_is_its_illuminance() {
+        let sun = Sun::daylight(90.0, 360.0, 20.0);
+        assert!((sun.irradiance.luminance() - 20.0).abs() < 1e-4);
+        assert_eq!(sun.azimuth, 0.0);
+        assert!((sun.elevation - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
     }
 }

@@ -1,6 +1,6 @@
 //! A picture is the same bits whatever the threads, the instructions, the run and the order of its parts.
 
-use lumbre_core::film::Film;
+use lumbre_core::film::{Crop, Film};
 use lumbre_cpu::bvh::SimdLevel;
 use lumbre_testkit::ready::{Ready, asset, open};
 use std::ops::Range;
@@ -75,6 +75,23 @@ fn parts_add_to_the_whole_in_any_order() {
     right.merge(&parts[0]);
     right.merge(&left);
     assert_same(&whole, &right, "sums of sums");
+}
+
+/// A part of the picture, across tiles and at the edge, is what the whole shows there.
+#[test]
+fn a_crop_is_cut_from_the_whole() {
+    let view = cornell();
+    let whole = render(&view, 0..SPP);
+    for (origin, size) in [([5, 9], [33, 20]), ([63, 47], [1, 1]), ([0, 30], [64, 18])] {
+        let mut part = Film::window([64, 48], Crop { origin, size });
+        view.backend.render(&view.view, 0..SPP, &mut part, &());
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                assert_eq!(part.pixel(x, y), whole.pixel(origin[0] + x, origin[1] + y), "{x}, {y}");
+            }
+        }
+        assert!(part.pixels().iter().all(|p| p.samples() == SPP));
+    }
 }
 
 /// The same comparison tells films apart that ought to differ: another seed, another frame, other samples, one sample more.

@@ -31,6 +31,8 @@ pub(super) const BASE: RenderSettings = RenderSettings {
     transmissive_shadows: TransmissiveShadows::Physical,
     diffuse_sampling: lumbre_core::bsdf::DiffuseSampling::Cosine,
     shade_back_faces: false,
+    clamp: None,
+    transparent_background: false,
 };
 
 /// A picture's mean at a number of samples of 24 x 24 pixels.
