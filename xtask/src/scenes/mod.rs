@@ -5,6 +5,8 @@ mod cornell;
 #[allow(dead_code, unused_imports, reason = "the scenes that use all of it are being written")]
 mod kit;
 mod leaves;
+mod materials;
+mod plates;
 mod pool;
 mod prism;
 mod smooth;
@@ -22,6 +24,8 @@ struct SceneFile {
 const SCENES: &[SceneFile] = &[
     SceneFile { name: "cornell.glb", make: cornell::cornell },
     SceneFile { name: "leaves.gltf", make: leaves::leaves },
+    SceneFile { name: "materials.glb", make: materials::materials },
+    SceneFile { name: "plates.glb", make: plates::plates },
     SceneFile { name: "pool.glb", make: pool::pool },
     SceneFile { name: "prism.gltf", make: prism::prism },
     SceneFile { name: "smooth.gltf", make: smooth::smooth },

@@ -229,6 +229,11 @@ impl Document {
         self.extras = json!({ "lumbre": { "sky": sky.into(), "sun": sun } });
     }
 
+    /// Gives the scene a sky without a sun: `"gradient"` or a linear colour.
+    pub(crate) fn sky(&mut self, sky: impl Into<Value>) {
+        self.extras = json!({ "lumbre": { "sky": sky.into() } });
+    }
+
     /// What the document holds, counted.
     pub(crate) fn census(&self) -> Census {
         Census::of(&self.json(None))
