@@ -23,6 +23,9 @@ struct SceneFile {
 /// Every file this program answers for.
 const SCENES: &[SceneFile] = &[
     SceneFile { name: "cornell.glb", make: cornell::cornell },
+    SceneFile { name: "cornell.mtl", make: cornell::as_mtl },
+    SceneFile { name: "cornell.obj", make: cornell::as_obj },
+    SceneFile { name: "cornell_tile.png", make: cornell::as_png },
     SceneFile { name: "leaves.gltf", make: leaves::leaves },
     SceneFile { name: "materials.glb", make: materials::materials },
     SceneFile { name: "plates.glb", make: plates::plates },

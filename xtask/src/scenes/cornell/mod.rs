@@ -2,6 +2,7 @@
 //! under the ceiling and a floor of patterned cement tiles; in it a copper trefoil on a plinth, a glazed vase, a clear glass ball and
 //! two small glazed ones. Metres; dimensions and colours are this project's own.
 
+mod obj;
 mod png;
 mod tile;
 
@@ -28,6 +29,21 @@ pub(crate) fn cornell() -> Vec<u8> {
     still_life(&mut document);
     document.camera("camera", [DVec3::new(0.0, 1.45, 4.9), DVec3::new(0.0, 0.96, 0.0)], 36.5, 4.0 / 3.0);
     document.to_glb()
+}
+
+/// The same room as Wavefront OBJ: mesh, materials, picture of the floor.
+pub(crate) fn as_obj() -> Vec<u8> {
+    obj::obj(&cornell())
+}
+
+/// Its materials.
+pub(crate) fn as_mtl() -> Vec<u8> {
+    obj::mtl(&cornell())
+}
+
+/// Its picture.
+pub(crate) fn as_png() -> Vec<u8> {
+    obj::picture(&cornell())
 }
 
 /// A dielectric material with the given linear colour and roughness.
