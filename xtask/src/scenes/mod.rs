@@ -4,6 +4,7 @@
 mod cornell;
 #[allow(dead_code, unused_imports, reason = "the scenes that use all of it are being written")]
 mod kit;
+mod lanterns;
 mod leaves;
 mod materials;
 mod plates;
@@ -26,6 +27,7 @@ const SCENES: &[SceneFile] = &[
     SceneFile { name: "cornell.mtl", make: cornell::as_mtl },
     SceneFile { name: "cornell.obj", make: cornell::as_obj },
     SceneFile { name: "cornell_tile.png", make: cornell::as_png },
+    SceneFile { name: "lanterns.glb", make: lanterns::lanterns },
     SceneFile { name: "leaves.gltf", make: leaves::leaves },
     SceneFile { name: "materials.glb", make: materials::materials },
     SceneFile { name: "plates.glb", make: plates::plates },
