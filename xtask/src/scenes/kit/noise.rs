@@ -42,14 +42,14 @@ impl Noise {
         let base = p.floor();
         let f = p - base;
         let corner = |dx: i64, dy: i64| {
-            let angle =
-                std::f64::consts::TAU * hash01(self.seed, self.cell(base.x as i64 + dx, base.y as i64 + dy));
-            let (s, c) = libm::sincos(angle);
-            DVec2::new(c, s).dot(f - DVec2::new(dx as f64, dy as f64))
+            // The two halves of the hash as a slope in [-1, 1]².
+            let bits = hash(self.seed, self.cell(base.x as i64 + dx, base.y as i64 + dy));
+            let half = |bits: u64| f64::from(bits as u32) / f64::from(1u32 << 31) - 1.0;
+            DVec2::new(half(bits), half(bits >> 32)).dot(f - DVec2::new(dx as f64, dy as f64))
         };
         let fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
         let row = |dy| corner(0, dy) + (corner(1, dy) - corner(0, dy)) * fade.x;
-        (row(0) + (row(1) - row(0)) * fade.y) * std::f64::consts::SQRT_2
+        (row(0) + (row(1) - row(0)) * fade.y) * 1.6
     }
 
     /// Sum of `octaves` of noise, each twice as fine and half as strong; about -1 to 1.

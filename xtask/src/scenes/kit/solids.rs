@@ -74,6 +74,45 @@ pub(crate) fn extrude(outline: &[DVec2], depth: f64) -> Mesh {
     mesh
 }
 
+/// The same prism with the edges of both ends cut off by `bevel`, shaded round there; no texture coordinates.
+pub(crate) fn extrude_beveled(outline: &[DVec2], depth: f64, bevel: f64) -> Mesh {
+    let n = outline.len();
+    let normal = |i: usize| {
+        let along = (outline[(i + 1) % n] - outline[i % n]).normalize();
+        DVec2::new(along.y, -along.x)
+    };
+    // Each corner moved inward so that both its edges move by the bevel.
+    let inner: Vec<DVec2> = (0..n)
+        .map(|i| {
+            let (a, b) = (normal(i + n - 1), normal(i));
+            outline[i] - (a + b) * bevel / (1.0 + a.dot(b))
+        })
+        .collect();
+    let mut mesh = Mesh::default();
+    for (z, end, side) in [(0.0, DVec3::NEG_Z, bevel), (depth, DVec3::Z, depth - bevel)] {
+        let cap: Vec<u32> = inner.iter().map(|p| mesh.push(p.extend(z), end)).collect();
+        let turn = |mesh: &mut Mesh, [a, b, c]: [u32; 3]| {
+            mesh.triangles.push(if end.z > 0.0 { [a, b, c] } else { [a, c, b] });
+        };
+        for t in ears(&inner) {
+            turn(&mut mesh, t.map(|i| cap[i]));
+        }
+        for i in 0..n {
+            let out = normal(i).extend(0.0);
+            let [a, b] = [i, (i + 1) % n].map(|j| mesh.push(outline[j].extend(side), out));
+            turn(&mut mesh, [a, b, cap[(i + 1) % n]]);
+            turn(&mut mesh, [a, cap[(i + 1) % n], cap[i]]);
+        }
+    }
+    for i in 0..n {
+        let (a, b, out) = (outline[i], outline[(i + 1) % n], normal(i).extend(0.0));
+        let corners = [a.extend(bevel), b.extend(bevel), b.extend(depth - bevel), a.extend(depth - bevel)];
+        let [a, b, c, d] = corners.map(|p| mesh.push(p, out));
+        mesh.quad(a, b, c, d);
+    }
+    mesh
+}
+
 /// Triangles of a simple polygon, counter-clockwise, by cutting off ears (Meisters 1975).
 fn ears(outline: &[DVec2]) -> Vec<[usize; 3]> {
     let mut left: Vec<usize> = (0..outline.len()).collect();
@@ -217,6 +256,7 @@ mod tests {
         let solids = [
             (bevel_box(DVec3::new(-1.0, 0.0, 2.0), DVec3::new(0.0, 0.5, 4.0), 0.02), 1.0, 0.02),
             (extrude(&corner, 0.5), 1.5, 1e-9),
+            (extrude_beveled(&corner, 0.5, 0.02), 1.5, 0.01),
             (lathe(&bollard, 24, 30.0), 0.0, f64::MAX),
             (tube(&path, 0.05, 12), 0.0, f64::MAX),
         ];

@@ -2,20 +2,38 @@
 //! room. Metres; the origin is the middle of the water's edge line at deck height, x runs along the lanes, y up. Dimensions and
 //! patterns are this project's own.
 
-#[allow(dead_code, reason = "it joins the parts when the building stands around it")]
+mod basin;
+mod buildings;
+mod canopies;
+mod deck;
+mod fence;
+mod green;
 mod interior;
+mod joinery;
+mod lanes;
+mod props;
+mod surfaces;
 
-use super::kit::{Document, Material, Texture, bevel_box};
-use glam::{DVec2, DVec3};
+use super::kit::{Document, Material, Texture};
+use glam::DVec3;
 use std::collections::BTreeMap;
+
+/// Half the length and the width of the water, its height, and the depths of the floor at both ends.
+const HALF_LENGTH: f64 = 12.5;
+const HALF_WIDTH: f64 = LANES as f64 * LANE_WIDTH / 2.0;
+const LANES: usize = 5;
+const LANE_WIDTH: f64 = 2.5;
+const WATER: f64 = -0.03;
+const DEPTH: [f64; 2] = [-1.35, -1.95];
 
 /// The scene under construction.
 #[derive(Default)]
 pub(super) struct Pool {
     pub(super) document: Document,
     materials: BTreeMap<&'static str, usize>,
-    #[allow(dead_code, reason = "the first textured part is being written")]
     textures: BTreeMap<&'static str, Texture>,
+    /// What the openings of the buildings are filled with.
+    joinery: joinery::Joinery,
 }
 
 impl Pool {
@@ -30,7 +48,6 @@ impl Pool {
         index
     }
 
-    #[allow(dead_code, reason = "the first textured part is being written")]
     /// The texture of that name, made on first use from a PNG and the metres that it covers.
     pub(super) fn texture(
         &mut self,
@@ -48,7 +65,28 @@ impl Pool {
 }
 
 /// The parts of the scene, in the order in which they stand in the file.
-const PARTS: &[fn(&mut Pool)] = &[cameras, ground];
+const PARTS: &[fn(&mut Pool)] = &[
+    cameras,
+    basin::basin,
+    basin::kerb,
+    deck::slabs,
+    deck::drain,
+    deck::puddles,
+    deck::land,
+    lanes::ropes,
+    lanes::ladders,
+    lanes::blocks,
+    lanes::flags,
+    buildings::buildings,
+    joinery::joinery,
+    interior::interior,
+    canopies::canopies,
+    props::props,
+    fence::fence,
+    green::trees,
+    green::palms,
+    green::hills,
+];
 
 /// The scene as a `.glb` file.
 pub(super) fn pool() -> Vec<u8> {
@@ -61,14 +99,26 @@ fn build() -> Pool {
     pool
 }
 
-/// The cameras; the first is the default.
+/// The cameras, of which the first is the default, and the light of a late afternoon.
 fn cameras(pool: &mut Pool) {
-    let eye = DVec3::new(-17.0, 1.75, 9.0);
-    pool.document.camera("exterior", [eye, DVec3::new(0.0, 0.9, -1.0)], 42.0, 16.0 / 9.0);
+    let view = [DVec3::new(-19.2, 2.15, 9.9), DVec3::new(-1.5, 0.85, -1.6)];
+    pool.document.camera("exterior", view, 37.0, 16.0 / 9.0);
+    pool.document.sky_and_sun("gradient", [25.0, 128.0, 24.0]);
 }
 
-fn ground(pool: &mut Pool) {
-    let concrete = pool.material("concrete", |_| Material::new("concrete", [0.4; 3], 0.8));
-    let slab = bevel_box(DVec3::new(-20.0, -0.5, -15.0), DVec3::new(20.0, 0.0, 15.0), 0.02);
-    pool.document.place("ground", &slab.box_uvs(DVec2::ZERO), concrete);
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scene_is_as_rich_as_it_should_be() {
+        let census = build().document.census();
+        println!("{census:#?}");
+        assert!((80_000..=150_000).contains(&census.triangles), "{} triangles", census.triangles);
+        assert!(census.meshes >= 40, "{} meshes", census.meshes);
+        assert!(census.textured >= 12, "{} textured materials", census.textured);
+        assert!(census.normal_mapped >= 6, "{} materials with normal maps", census.normal_mapped);
+        let (name, share) = census.largest();
+        assert!(share <= 0.15, "{name} has {:.1} % of the triangles", share * 100.0);
+    }
 }

@@ -12,7 +12,7 @@ pub(super) fn folded(layers: u32, seed: u64) -> Mesh {
         let jitter = |k: u64| hash01(seed, u64::from(layer) * 7 + k) - 0.5;
         let half = DVec3::new(0.15 + 0.008 * jitter(0), 0.0112, 0.105 + 0.008 * jitter(1));
         let at = DVec3::new(0.008 * jitter(2), 0.011 + 0.0208 * f64::from(layer), 0.006 * jitter(3));
-        let slab = rounded_box(half, 0.0105, 2);
+        let slab = rounded_box(half, 0.0105, 1);
         pile.append_at(&slab, &Placement::at(at).turned_y(2.5 * jitter(4)));
     }
     pile.box_uvs(DVec2::ZERO)
@@ -22,9 +22,9 @@ pub(super) fn folded(layers: u32, seed: u64) -> Mesh {
 pub(super) fn rolled() -> Mesh {
     let (radius, half) = (0.062, 0.18);
     let mut profile = vec![DVec2::new(0.0, -half)];
-    for turn in 0..4 {
-        let r = 0.004 + 0.0145 * f64::from(turn);
-        for (dr, sink) in [(0.002, 0.004), (0.005, 0.0), (0.0095, 0.0), (0.0125, 0.004)] {
+    for turn in 0..3 {
+        let r = 0.006 + 0.0185 * f64::from(turn);
+        for (dr, sink) in [(0.002, 0.004), (0.009, 0.0), (0.016, 0.004)] {
             profile.push(DVec2::new(r + dr, -half + sink));
         }
     }
@@ -32,7 +32,7 @@ pub(super) fn rolled() -> Mesh {
     let mirrored: Vec<DVec2> = profile.iter().rev().map(|p| DVec2::new(p.x, -p.y)).collect();
     profile.extend(mirrored);
     let lying = Placement::xyz(0.0, radius, 0.0).turned(DVec3::X, 90.0);
-    lathe(&profile, 28, 50.0).placed(&lying).box_uvs(DVec2::ZERO)
+    lathe(&profile, 20, 50.0).placed(&lying).box_uvs(DVec2::ZERO)
 }
 
 /// A towel of `width` by `height` metres that hangs from a hook at the origin, in front of a wall at z = 0, facing +z.
@@ -40,7 +40,7 @@ pub(super) fn hung(width: f64, height: f64, seed: u64) -> Mesh {
     let phase = |k: u64| TAU * hash01(seed, k);
     let (a, b) = (phase(0), phase(1));
     let smooth = |t: f64| t * t * (3.0 - 2.0 * t);
-    let mut mesh = surface(40, 36, |p| {
+    let mut mesh = surface(26, 22, |p| {
         let side = 2.0 * p.x - 1.0;
         // Gathered at the hook, falling into folds that open downwards.
         let open = 0.17 + 0.36 * smooth((p.y * 1.15).min(1.0));
@@ -54,7 +54,7 @@ pub(super) fn hung(width: f64, height: f64, seed: u64) -> Mesh {
         let hem = 0.02 * libm::cos(PI * side + b) * p.y;
         DVec3::new(x, 0.012 - height * p.y + shoulder + hem, 0.020 + depth * (1.35 + wave))
     });
-    mesh.uvs = uv_grid(40, 36, width, height);
+    mesh.uvs = uv_grid(26, 22, width, height);
     mesh
 }
 
@@ -89,7 +89,7 @@ pub(super) fn thrown(width: f64, depth: f64, front: f64, back: f64) -> Mesh {
         }
         (DVec2::new(half + r, -radius - (s - arc)), DVec2::X)
     };
-    let mut mesh = surface(24, 60, |p| {
+    let mut mesh = surface(20, 46, |p| {
         let s = p.y * length;
         let (at, out) = place(s);
         let side = 2.0 * p.x - 1.0;
@@ -102,7 +102,7 @@ pub(super) fn thrown(width: f64, depth: f64, front: f64, back: f64) -> Mesh {
         let skew = 0.035 * (p.y - 0.4);
         DVec3::new(side * width / 2.0 + skew, at.y + 0.01 * side * (p.y - 0.5) * free * 6.0, at.x)
     });
-    mesh.uvs = uv_grid(24, 60, width, length);
+    mesh.uvs = uv_grid(20, 46, width, length);
     mesh
 }
 

@@ -67,8 +67,8 @@ pub(super) fn lamp_cover() -> Mesh {
     mesh
 }
 
-/// The steel frame of a window of `width` by `height`, set `inset` behind the face of the wall, with a mullion and a transom's
-/// worth of putty line: frame, and the two panes as one mesh.
+/// The steel frame of a window of `width` by `height`, set `inset` behind the face of the wall, with a
+/// mullion: frame, and the two panes as one mesh.
 pub(super) fn window([width, height]: [f64; 2], inset: f64) -> [Mesh; 2] {
     let (bar, depth) = (0.032, 0.045);
     let (z0, z1) = (-inset - depth, -inset);
@@ -83,20 +83,10 @@ pub(super) fn window([width, height]: [f64; 2], inset: f64) -> [Mesh; 2] {
     for (min, max) in bars {
         frame.append(&block([min[0], min[1], z0], [max[0], max[1], z1], 0.004));
     }
-    // Glazing beads around both panes.
     let halves = [(bar, (width - bar) / 2.0), ((width + bar) / 2.0, width - bar)];
     let mut panes = Mesh::default();
     for (x0, x1) in halves {
         let (y0, y1) = (bar, height - bar);
-        let (bead, za, zb) = (0.009, -inset - 0.022, -inset - 0.006);
-        for (min, max) in [
-            ([x0 - 0.003, y0 - 0.003], [x1 + 0.003, y0 + bead]),
-            ([x0 - 0.003, y1 - bead], [x1 + 0.003, y1 + 0.003]),
-            ([x0 - 0.003, y0 + bead], [x0 + bead, y1 - bead]),
-            ([x1 - bead, y0 + bead], [x1 + 0.003, y1 - bead]),
-        ] {
-            frame.append(&block([min[0], min[1], za], [max[0], max[1], zb], 0.0025));
-        }
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
         let z = -inset - 0.024;
         panes.flat_quad(corners.map(|(x, y)| DVec3::new(x, y, z)), corners.map(|(x, y)| DVec2::new(x, -y)));
@@ -217,7 +207,7 @@ pub(super) fn conduit(path: &[DVec3], clips: &[(DVec3, DVec3)]) -> Mesh {
 /// The grating of the floor's gully: a ring and bars, flush with the floor at y = 0.
 pub(super) fn gully() -> Mesh {
     let ring = [(0.062, -0.004), (0.064, 0.0012), (0.076, 0.0018), (0.080, 0.0), (0.080, -0.004)];
-    let mut all = lathe(&ring.map(DVec2::from), 32, 40.0);
+    let mut all = lathe(&ring.map(DVec2::from), 24, 40.0);
     for i in -4..=4 {
         let z = 0.0135 * f64::from(i);
         let half = libm::sqrt(0.064 * 0.064 - z * z);

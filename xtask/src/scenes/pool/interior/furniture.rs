@@ -2,7 +2,7 @@
 //! -z and its middle over the origin, unless told otherwise.
 
 use super::parts::{block, grained};
-use crate::scenes::kit::{Mesh, Placement, hash01, lathe, round_path, tube};
+use crate::scenes::kit::{Mesh, Placement, extrude, hash01, lathe, round_path, tube};
 use glam::{DVec2, DVec3};
 
 /// Columns and rows of the shelf, the inside of a cell, the thickness of its boards, its depth and the height of its foot.
@@ -94,7 +94,7 @@ pub(super) fn bench_frame() -> Mesh {
             DVec3::new(side, top, -z),
             DVec3::new(side, 0.004, -z - 0.03),
         ];
-        frame.append(&tube(&round_path(&corners, 0.06, 5), r, 12));
+        frame.append(&tube(&round_path(&corners, 0.06, 4), r, 10));
     }
     for (y, rail_z) in [(top, z - 0.09), (top, -z + 0.09)] {
         frame.append(&tube(&[DVec3::new(-x, y, rail_z), DVec3::new(x, y, rail_z)], 0.012, 12));
@@ -110,7 +110,7 @@ pub(super) fn bench_feet() -> Mesh {
     let (x, z) = (BENCH[0] / 2.0 - 0.22, BENCH[2] / 2.0 - 0.015);
     let foot = lathe(
         &[(0.0, 0.0), (0.019, 0.0), (0.021, 0.003), (0.020, 0.028), (0.0, 0.028)].map(DVec2::from),
-        14,
+        8,
         40.0,
     );
     let mut feet = Mesh::default();
@@ -176,20 +176,31 @@ pub(super) fn cabinet_metal() -> Mesh {
 /// Length and width of a mat.
 pub(super) const MAT: [f64; 2] = [1.0, 0.6];
 
-/// A duckboard mat of soft plastic: bars along x over bars across.
+/// A duckboard mat of soft plastic: bars along x, their upper edges cut off, over bars across.
 pub(super) fn mat() -> Mesh {
     let [length, width] = MAT;
-    let (bars, bar, height) = (21, 0.017, 0.014);
+    let (bars, bar, bevel) = (17, 0.021, 0.003);
     let mut mat = Mesh::default();
     let pitch = (width - bar) / f64::from(bars - 1);
+    let outline = [
+        (0.0, 0.006),
+        (bar, 0.006),
+        (bar, 0.014 - bevel),
+        (bar - bevel, 0.014),
+        (bevel, 0.014),
+        (0.0, 0.014 - bevel),
+    ];
+    let along =
+        extrude(&outline.map(DVec2::from), length).placed(&Placement::at(DVec3::ZERO).turned_y(-90.0));
+    let along = Mesh { uvs: Vec::new(), ..along.without_side(DVec3::NEG_Y) };
     for i in 0..bars {
         let z = -width / 2.0 + f64::from(i) * pitch;
-        let along = block([-length / 2.0, 0.006, z], [length / 2.0, height, z + bar], 0.0025);
-        mat.append(&along.without_side(DVec3::NEG_Y));
+        mat.append(&along.clone().moved(DVec3::new(length / 2.0, 0.0, z)));
     }
-    for i in 0..8 {
-        let x = -length / 2.0 + 0.03 + f64::from(i) * (length - 0.06 - 0.02) / 7.0;
-        mat.append(&block([x, 0.0, -width / 2.0 + 0.004], [x + 0.02, 0.008, width / 2.0 - 0.004], 0.002));
+    for i in 0..6 {
+        let x = -length / 2.0 + 0.03 + f64::from(i) * (length - 0.06 - 0.02) / 5.0;
+        let across = block([x, 0.0, -width / 2.0 + 0.004], [x + 0.02, 0.008, width / 2.0 - 0.004], 0.001);
+        mat.append(&across.without_side(DVec3::NEG_Y).without_side(DVec3::Y));
     }
     mat
 }
@@ -239,8 +250,8 @@ pub(super) fn hook() -> Mesh {
     let upper = [(0.0, 0.018, 0.002), (0.0, 0.020, 0.045), (0.0, 0.055, 0.062)];
     let lower = [(0.0, -0.014, 0.002), (0.0, -0.030, 0.026), (0.0, -0.012, 0.044)];
     for arm in [upper, lower] {
-        let path = round_path(&arm.map(DVec3::from), 0.015, 4);
-        hook.append(&tube(&path, 0.0042, 8));
+        let path = round_path(&arm.map(DVec3::from), 0.015, 2);
+        hook.append(&tube(&path, 0.0042, 6));
     }
     hook
 }

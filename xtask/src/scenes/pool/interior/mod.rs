@@ -18,8 +18,9 @@ use glam::DVec3;
 use shell::{Opening, ROOM, WALL, Wall};
 use stage::{Finish, Room};
 
-/// Where the room's corner (0, 0, 0) stands in the scene: a step above the deck.
-const CORNER: DVec3 = DVec3::new(8.0, 0.03, -4.0);
+/// Where the room's corner (0, 0, 0) stands in the scene: on the deck behind the starting blocks, a step above it, its door towards the
+/// water and the afternoon sun, out of the exterior's view.
+const CORNER: DVec3 = DVec3::new(-24.3, 0.035, -4.0);
 
 /// The windows in the back wall and the door in the right one, along each wall and up.
 const WINDOWS: [[[f64; 2]; 2]; 2] = [[[0.75, 2.02], [2.05, 2.58]], [[2.35, 2.02], [3.65, 2.58]]];
@@ -71,10 +72,10 @@ fn shell(room: &mut Room) {
     }
     room.place("room lower walls", &lower, Finish::Formwork);
     room.place("room upper walls", &upper, Finish::Concrete);
-    room.place("room outer walls", &outer, Finish::Formwork);
+    room.place("room outer walls", &outer, Finish::Outside);
     room.place("room floor", &shell::floor(), Finish::Screed);
     room.place("room ceiling", &shell::ceiling(), Finish::Concrete);
-    room.place("room roof", &shell::roof(), Finish::Concrete);
+    room.place("room roof", &shell::roof(), Finish::Roof);
     room.put("gully", &fittings::gully(), Finish::Steel, &[Placement::xyz(2.0, 0.0, 3.86)]);
 }
 
@@ -157,8 +158,13 @@ fn shelf(room: &mut Room) {
         let upright = Placement::at(DVec3::ZERO).turned(DVec3::Z, 86.0);
         Placement { translation: cell(column, row, [x, 0.04]).translation + DVec3::Y * 0.142, ..upright }
     };
-    room.put("board", &things::board(), Finish::FoamBlue, &[leaning(8, 1, -0.09), leaning(8, 1, -0.045)]);
-    room.put("board, red", &things::board(), Finish::FoamRed, &[leaning(8, 1, 0.0), leaning(5, 0, -0.08)]);
+    room.put("board", &things::board(), Finish::FoamBlue, &[leaning(8, 1, -0.098), leaning(8, 1, -0.063)]);
+    room.put(
+        "board, red",
+        &things::board(),
+        Finish::FoamRed,
+        &[leaning(8, 1, -0.028), leaning(5, 0, -0.098)],
+    );
     let pairs = [(2, 0, 8.0), (6, 0, -5.0)];
     let feet: Vec<Placement> =
         pairs.iter().flat_map(|&(c, r, turn)| pair(cell(c, r, [0.0, 0.03]), turn, 0.06)).collect();
@@ -207,7 +213,7 @@ fn cabinet(room: &mut Room) {
 fn mats(room: &mut Room) {
     let [length, width] = furniture::MAT;
     let mut places = Vec::new();
-    for (row, columns) in [(0, 4), (1, 4)] {
+    for (row, columns) in [(0, 4), (1, 3)] {
         for i in 0..columns {
             let jitter = |k: u64| crate::scenes::kit::hash01(17 + k, row * 10 + i) - 0.5;
             let x = 5.36 - (length + 0.012) * i as f64 + 0.006 * jitter(0);
@@ -266,4 +272,23 @@ fn sandals(room: &mut Room) {
     ];
     room.put("sandal sole, mats", &things::sandal_sole(), Finish::FoamRed, &loose);
     room.put("sandal strap, mats", &things::sandal_strap(), Finish::Rubber, &loose);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_room_is_rich_enough_and_not_too_rich() {
+        let mut pool = Pool::default();
+        interior(&mut pool);
+        let census = pool.document.census();
+        println!("{census:#?}");
+        assert!((20_000..=46_000).contains(&census.triangles), "{} triangles", census.triangles);
+        assert!(census.meshes >= 14, "{} meshes", census.meshes);
+        assert!(census.textured >= 5, "{} textured materials", census.textured);
+        assert!(census.normal_mapped >= 2, "{} materials with normal maps", census.normal_mapped);
+        let (name, share) = census.largest();
+        assert!(share <= 0.25, "{name} has {:.1} % of the triangles", share * 100.0);
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::textures;
 use crate::scenes::kit::{Material, Mesh, Placement, Texture};
-use crate::scenes::pool::Pool;
+use crate::scenes::pool::{Pool, surfaces};
 use glam::DVec3;
 use serde_json::json;
 
@@ -11,6 +11,9 @@ use serde_json::json;
 pub(super) enum Finish {
     Formwork,
     Concrete,
+    /// As the other buildings outside, and their roofs.
+    Outside,
+    Roof,
     Screed,
     Birch,
     Pallet,
@@ -89,11 +92,13 @@ impl<'a> Room<'a> {
                     .color_texture(color)
                     .normal_texture(normal, 1.0)
             }),
-            Finish::Concrete => self.pool.material("plain concrete", |pool| {
+            Finish::Concrete => self.pool.material("plain concrete, inside", |pool| {
                 let color =
                     pool.texture("smooth concrete", [2.4, 2.4], || textures::smooth_concrete().png_srgb());
-                Material::new("plain concrete", [1.0, 0.98, 0.94], 0.8).color_texture(color)
+                Material::new("plain concrete, inside", [1.0, 0.98, 0.94], 0.8).color_texture(color)
             }),
+            Finish::Outside => surfaces::board_concrete(self.pool),
+            Finish::Roof => surfaces::plain_concrete(self.pool),
             Finish::Screed => self.pool.material("screed", |pool| {
                 let color = pool.texture("screed", [2.0, 2.0], || textures::screed().png_srgb());
                 let rough =
@@ -114,12 +119,12 @@ impl<'a> Room<'a> {
                 let color = pool.texture("wire", [0.08, 0.08], || textures::wire().png());
                 Material::new("window wire", [1.0; 3], 0.5).color_texture(color).mask(0.5).double_sided()
             }),
-            Finish::Striped => self.pool.material("striped towel", |pool| {
+            Finish::Striped => self.pool.material("striped bath towel", |pool| {
                 let color = pool.texture("stripes", [0.6, 0.6], || {
                     textures::stripes(DVec3::new(0.78, 0.76, 0.70), DVec3::new(0.03, 0.16, 0.33)).png()
                 });
                 let normal = terry(pool);
-                Material::new("striped towel", [1.0; 3], 0.95)
+                Material::new("striped bath towel", [1.0; 3], 0.95)
                     .color_texture(color)
                     .normal_texture(normal, 0.7)
                     .double_sided()
@@ -170,7 +175,7 @@ impl Finish {
             Finish::Steel => ("brushed steel", Material::metal("brushed steel", [0.62, 0.61, 0.59], 0.38)),
             Finish::Light => {
                 let tube = Material::new("lamp cover", [0.0; 3], 1.0).specular(0.0);
-                ("lamp cover", tube.emissive([1.0, 0.95, 0.84], 110.0))
+                ("lamp cover", tube.emissive([1.0, 0.95, 0.84], 190.0))
             }
             Finish::Mat => paint("green mat", [0.035, 0.22, 0.075], 0.55),
             Finish::Rubber => paint("black rubber", [0.025, 0.025, 0.027], 0.6),

@@ -94,7 +94,7 @@ pub(super) fn wood() -> Grey {
 
 /// Loops of terry cloth, heights over 8 cm.
 pub(super) fn terry() -> Grey {
-    Grey::from_fn([256, 256], |u, v| {
+    Grey::from_fn([128, 128], |u, v| {
         let [d, _, r] = Noise::new(61, [26, 26]).cells(u, v);
         let soft = Noise::new(63, [5, 5]).fbm(u, v, 3);
         0.0022 * (1.0 - d) * (0.6 + 0.4 * r) + 0.0012 * soft
@@ -114,7 +114,7 @@ pub(super) fn stripes(field: DVec3, stripe: DVec3) -> Picture {
 
 /// The bumps of pebbled glass, heights over 16 cm.
 pub(super) fn pebbles() -> Grey {
-    Grey::from_fn([256, 256], |u, v| {
+    Grey::from_fn([160, 160], |u, v| {
         let [d, second, r] = Noise::new(71, [13, 13]).cells(u, v);
         let dome = smoothstep(0.0, 0.55, second - d) * (0.7 + 0.3 * r);
         0.0035 * dome

@@ -26,7 +26,7 @@ pub(super) fn bucket() -> Mesh {
         (0.096, 0.014),
         (0.0, 0.014),
     ];
-    lathe(&profile.map(DVec2::from), 40, 40.0)
+    lathe(&profile.map(DVec2::from), 28, 40.0)
 }
 
 /// The wire handle of a bucket and its grip, folded down by `tilt` degrees from upright.
@@ -44,7 +44,7 @@ pub(super) fn bucket_handle(tilt: f64) -> Mesh {
 
 /// The outline of a left sole, 27 cm along z, heel at the back (+z), counter-clockwise seen from above.
 fn sole_outline(grow: f64) -> Vec<DVec2> {
-    const STEPS: usize = 36;
+    const STEPS: usize = 24;
     (0..STEPS)
         .map(|i| {
             let (s, c) = libm::sincos(TAU * i as f64 / STEPS as f64);
@@ -66,9 +66,9 @@ pub(super) fn sandal_sole() -> Mesh {
 /// The foot bed and the strap over it, in another colour than the sole.
 pub(super) fn sandal_strap() -> Mesh {
     let bed = pad(&sole_outline(-0.007), 0.003, 0.001).moved(DVec3::Y * 0.023);
-    let arch: Vec<DVec3> = (0..=14)
+    let arch: Vec<DVec3> = (0..=10)
         .map(|i| {
-            let (s, c) = libm::sincos(PI * f64::from(i) / 14.0);
+            let (s, c) = libm::sincos(PI * f64::from(i) / 10.0);
             DVec3::new(-0.046 * c + 0.003, 0.008 + 0.058 * libm::pow(s, 0.75), -0.040 - 0.012 * s)
         })
         .collect();
@@ -110,7 +110,7 @@ pub(super) fn bottle_cap() -> Mesh {
 
 /// A sports bag, 46 cm along x.
 pub(super) fn bag() -> Mesh {
-    rounded_box(DVec3::new(0.23, 0.115, 0.115), 0.085, 5).moved(DVec3::Y * 0.115)
+    rounded_box(DVec3::new(0.23, 0.115, 0.115), 0.085, 4).moved(DVec3::Y * 0.115)
 }
 
 /// The two handles of a bag, fallen to its sides, and the straps around it that carry them.
@@ -144,9 +144,9 @@ pub(super) fn bag_handles() -> Mesh {
 
 /// A swimming board of foam, 42 cm long, lying flat.
 pub(super) fn board() -> Mesh {
-    let outline: Vec<DVec2> = (0..40)
+    let outline: Vec<DVec2> = (0..32)
         .map(|i| {
-            let (s, c) = libm::sincos(TAU * f64::from(i) / 40.0);
+            let (s, c) = libm::sincos(TAU * f64::from(i) / 32.0);
             let power = |x: f64, p: f64| x.signum() * libm::pow(x.abs(), p);
             // Squarer at the near end than at the far one.
             let p = if s > 0.0 { 0.35 } else { 0.75 };
