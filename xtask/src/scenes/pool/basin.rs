@@ -164,8 +164,8 @@ fn kerb_stone(seed: u64) -> Mesh {
     }
     for (k, side) in [(0, -1.0), (STEPS, 1.0)] {
         let centre = DVec3::new(x(k), 0.03, 0.18);
-        for i in 0..profile.len() - 1 {
-            let [a, b] = [i, i + 1].map(|i| DVec3::new(x(k), worn(i, k).y, worn(i, k).x));
+        for i in 0..profile.len() {
+            let [a, b] = [i, (i + 1) % profile.len()].map(|i| DVec3::new(x(k), worn(i, k).y, worn(i, k).x));
             let ids = [centre, a, b].map(|p| mesh.push_uv(p, DVec3::X * side, DVec2::ZERO));
             mesh.triangles.push(if side > 0.0 { ids } else { [ids[0], ids[2], ids[1]] });
         }

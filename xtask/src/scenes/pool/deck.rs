@@ -2,9 +2,7 @@
 
 use super::basin::KERB_WIDTH;
 use super::{HALF_LENGTH, HALF_WIDTH, Pool, surfaces};
-use crate::scenes::kit::{
-    Grey, Material, Mesh, Noise, Picture, Placement, bevel_box, hash01, rectangle, smoothstep,
-};
+use crate::scenes::kit::{Grey, Material, Mesh, Noise, Placement, bevel_box, hash01, rectangle, smoothstep};
 use glam::{DVec2, DVec3};
 
 /// Ends of the deck along x and z.
@@ -116,49 +114,6 @@ pub(super) fn drain(pool: &mut Pool) {
         places.push(Placement::xyz(-x - DRAIN + 0.004, 0.0, at).turned_y(90.0).stretched(stretch));
     }
     pool.document.scatter("grating", &piece, grating, &places);
-}
-
-/// Dark wet places where people came out of the water.
-pub(super) fn puddles(pool: &mut Pool) {
-    let wet = pool.material("wet", |pool| {
-        let alpha = pool.texture("wet", [1.0; 2], || {
-            let (shape, drops) = (Noise::new(321, [5, 5]), Noise::new(322, [14, 14]));
-            let at = |u: f64, v: f64| {
-                let from_middle = DVec2::new(u - 0.5, v - 0.5).length() * 2.0;
-                let body = smoothstep(0.02, -0.12, from_middle - 0.55 - 0.55 * shape.fbm(u, v, 4));
-                let cells = drops.cells(u, v);
-                let drop = if cells[2] > 0.45 {
-                    smoothstep(0.30, 0.22, cells[0] / (0.5 + cells[2] * 0.6))
-                } else {
-                    0.0
-                };
-                let alpha = body.max(drop * smoothstep(0.95, 0.6, from_middle));
-                (DVec3::new(0.10, 0.095, 0.085), alpha * 0.5 * smoothstep(1.0, 0.9, from_middle))
-            };
-            Picture::with_alpha([384; 2], at).png()
-        });
-        Material::new("wet", [1.0; 3], 0.12).color_texture(alpha).blend(1.0)
-    });
-    let mut sheet = rectangle(DVec3::new(-0.5, 0.0, 0.5), DVec3::X, DVec3::NEG_Z);
-    sheet.uvs = [(0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)].map(DVec2::from).to_vec();
-    let spots = [
-        (-9.1, 7.9, 2.4, 1.7, 15.0),
-        (-10.6, 8.7, 1.3, 1.0, 80.0),
-        (-14.6, 5.2, 1.6, 1.2, 140.0),
-        (-14.9, 0.3, 1.7, 1.1, 200.0),
-        (-15.4, 2.6, 1.0, 0.9, 30.0),
-        (-15.6, 7.4, 1.6, 1.1, 60.0),
-        (-12.2, 9.6, 1.2, 0.8, 260.0),
-        (-5.0, 7.8, 1.9, 1.0, 300.0),
-        (2.6, 7.7, 1.9, 1.2, 111.0),
-        (9.2, -7.9, 2.2, 1.5, 5.0),
-        (-3.0, -8.0, 1.8, 1.1, 170.0),
-    ];
-    let at = |&(x, z, sx, sz, turn): &(f64, f64, f64, f64, f64)| {
-        Placement::xyz(x, 0.0035, z).turned_y(turn).stretched(DVec3::new(sx, 1.0, sz))
-    };
-    let places: Vec<Placement> = spots.iter().map(at).collect();
-    pool.document.scatter("wet place", &sheet, wet, &places);
 }
 
 /// The land: dry grass out to the hills.

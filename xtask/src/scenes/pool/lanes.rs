@@ -47,8 +47,8 @@ pub(super) fn ropes(pool: &mut Pool) {
             places[i % 2].push(Placement::at(line(x)));
         }
     }
-    let steel = chrome(pool);
-    pool.document.place("lane lines of steel", &lines, steel);
+    let white = plastic(pool, "white rope", [0.75, 0.75, 0.72]);
+    pool.document.place("ropes", &lines, white);
     pool.document.scatter("blue float", &float, blue, &places[0]);
     pool.document.scatter("yellow float", &float, yellow, &places[1]);
 }

@@ -13,6 +13,7 @@ mod joinery;
 mod lanes;
 mod props;
 mod surfaces;
+mod wet;
 
 use super::kit::{Document, Material, Texture};
 use glam::DVec3;
@@ -71,7 +72,9 @@ const PARTS: &[fn(&mut Pool)] = &[
     basin::kerb,
     deck::slabs,
     deck::drain,
-    deck::puddles,
+    wet::puddles,
+    wet::footprints,
+    wet::cracks,
     deck::land,
     lanes::ropes,
     lanes::ladders,
@@ -101,9 +104,9 @@ fn build() -> Pool {
 
 /// The cameras, of which the first is the default, and the light of a late afternoon.
 fn cameras(pool: &mut Pool) {
-    let view = [DVec3::new(-19.2, 2.15, 9.9), DVec3::new(-1.5, 0.85, -1.6)];
-    pool.document.camera("exterior", view, 37.0, 16.0 / 9.0);
-    pool.document.sky_and_sun("gradient", [25.0, 128.0, 24.0]);
+    let view = [DVec3::new(-21.2, 2.3, 9.2), DVec3::new(-2.5, 0.5, -2.2)];
+    pool.document.camera("exterior", view, 35.0, 16.0 / 9.0);
+    pool.document.sky_and_sun("gradient", [25.0, 128.0, 22.0]);
 }
 
 #[cfg(test)]

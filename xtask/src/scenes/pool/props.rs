@@ -221,11 +221,11 @@ fn kickboards(pool: &mut Pool) {
     let mut stacks = [Vec::new(), Vec::new(), Vec::new()];
     for i in 0..9u32 {
         let turn = 9.0 * libm::sin(f64::from(i) * 2.1);
-        let place = Placement::xyz(-15.25, 0.004 + 0.0345 * f64::from(i), 6.35).turned_y(turn + 40.0);
+        let place = Placement::xyz(-13.85, 0.004 + 0.0345 * f64::from(i), 6.55).turned_y(turn + 40.0);
         stacks[(i % 3) as usize].push(place);
     }
-    stacks[1].push(Placement::xyz(-12.2, 0.004, 7.75).turned_y(-35.0));
-    stacks[0].push(Placement::xyz(-14.75, 0.004, 6.75).turned_y(75.0));
+    stacks[1].push(Placement::xyz(-11.0, 0.004, 8.1).turned_y(-35.0));
+    stacks[0].push(Placement::xyz(-13.45, 0.004, 7.35).turned_y(75.0));
     let foams = [
         ("red foam", [0.66, 0.06, 0.035]),
         ("blue foam", [0.02, 0.16, 0.52]),

@@ -18,7 +18,7 @@ pub(super) fn deck_concrete(pool: &mut Pool) -> usize {
             };
             Grey::from_fn([512; 2], height).normal_map([1.5; 2])
         });
-        let material = Material::new("deck concrete", [1.0, 0.955, 0.885], 1.0);
+        let material = Material::new("deck concrete", [1.0, 0.945, 0.86], 1.0);
         let rough = pool.texture("deck concrete roughness", [3.0; 2], || {
             let (broad, fine) = (Noise::new(34, [4, 4]), Noise::new(35, [64, 64]));
             Grey::from_fn([256; 2], |u, v| 0.78 + 0.12 * broad.fbm(u, v, 4) + 0.08 * fine.at(u, v)).png()
@@ -94,7 +94,7 @@ fn board_color(u: f64, v: f64) -> f64 {
     let hole = smoothstep(0.018, 0.013, tie_distance(u, v));
     let rust = smoothstep(0.1, 0.0, tie_distance(u, v)) * 0.05;
     let color = 0.40 + 0.075 * shade + 0.06 * fibres + 0.06 * mottle - 0.07 * runs - 0.09 * seam;
-    color * (1.0 - 0.4 * pore) * (1.0 - 0.7 * hole) - rust
+    color * (1.0 - 0.25 * pore) * (1.0 - 0.7 * hole) - rust
 }
 
 /// Smooth concrete of roofs, plinths and steps, 2 m.
@@ -148,7 +148,8 @@ fn tiles(pool: &mut Pool, name: &'static str, glaze: DVec3, seed: u64) -> usize 
             };
             Grey::from_fn([512; 2], at).normal_map([1.0; 2])
         });
-        Material::new(name, [1.0; 3], 0.18).color_texture(color).normal_texture(normal, 1.0)
+        // Under water a glaze hardly reflects: its index is near that of water.
+        Material::new(name, [1.0; 3], 0.5).color_texture(color).normal_texture(normal, 1.0).specular(0.12)
     })
 }
 
