@@ -229,6 +229,11 @@ impl Document {
         self.extras = json!({ "lumbre": { "sky": sky.into(), "sun": sun } });
     }
 
+    /// Gives the scene a sky without a sun: `"gradient"` or a linear colour.
+    pub(crate) fn sky(&mut self, sky: impl Into<Value>) {
+        self.extras = json!({ "lumbre": { "sky": sky.into() } });
+    }
+
     /// What the document holds, counted.
     pub(crate) fn census(&self) -> Census {
         Census::of(&self.json(None))
@@ -248,7 +253,8 @@ impl Document {
         let mut root = Map::new();
         root.insert(
             "asset".into(),
-            json!({ "version": "2.0", "generator": "Lumbre cargo xtask scenes", "copyright": "MIT OR Apache-2.0" }),
+            // A name of long standing, which files that did not change keep.
+            json!({ "version": "2.0", "generator": "Lumbre make_scenes", "copyright": "MIT OR Apache-2.0" }),
         );
         root.insert("scene".into(), json!(0));
         root.insert("scenes".into(), json!([scene]));

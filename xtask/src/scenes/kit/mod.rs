@@ -22,6 +22,7 @@ pub(crate) use mesh::checks;
 pub(crate) use noise::{Noise, hash01};
 pub(crate) use picture::{Grey, Picture, mix, smoothstep, srgb};
 pub(crate) use placement::Placement;
+pub(crate) use png::chunk as png_chunk;
 pub(crate) use shapes::{faceted, grid, icosphere, rectangle, revolve, rounded_box, trefoil};
 pub(crate) use solids::{bevel_box, extrude, extrude_beveled, lathe, round_path, tube};
 pub(crate) use text::{Text, lettering};
