@@ -43,7 +43,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand --quality 'Quality of a JPEG'
             cand --spp 'Samples per pixel. [default: 4096 if neither --time nor --target-error is given either]'
             cand --time 'Time for the whole command but the writing of the picture, such as 30s, 1.5min, 1h30min. [default: 10min if neither --spp nor --target-error is given either]'
-            cand --target-error 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 clean at a glance, 0.001 clean. [default: 0.005 if neither --spp nor --time is given either]'
+            cand --target-error 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. [default: 0.002 if neither --spp nor --time is given either]'
             cand --save-every 'Write the outputs again and again with what there is so far, this far apart'
             cand --max-depth 'Most scattering events on a path'
             cand --roulette 'First scattering event after which Russian roulette may end a path'

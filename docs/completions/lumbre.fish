@@ -45,7 +45,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l aberration -d '
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l quality -d 'Quality of a JPEG' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l spp -d 'Samples per pixel. [default: 4096 if neither --time nor --target-error is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l time -d 'Time for the whole command but the writing of the picture, such as 30s, 1.5min, 1h30min. [default: 10min if neither --spp nor --target-error is given either]' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l target-error -d 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 clean at a glance, 0.001 clean. [default: 0.005 if neither --spp nor --time is given either]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l target-error -d 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. [default: 0.002 if neither --spp nor --time is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l save-every -d 'Write the outputs again and again with what there is so far, this far apart' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-depth -d 'Most scattering events on a path' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l roulette -d 'First scattering event after which Russian roulette may end a path' -r

@@ -84,7 +84,7 @@ impl Subject {
         let mut scene =
             lumbre::load_scene(&path, &LoadOptions::default()).unwrap_or_else(|e| panic!("{e}")).scene;
         if let Some(file) = self.environment {
-            let map = lumbre::io::read_environment(&shared(file), &Limits::default())
+            let map = lumbre::io::read_environment(shared(file), &Limits::default())
                 .unwrap_or_else(|e| panic!("{e}"))
                 .map;
             scene.environment.background = Background::Map(map);

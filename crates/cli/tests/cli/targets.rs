@@ -18,7 +18,7 @@ fn nothing_but_a_scene_is_enough() {
     std::fs::copy(CORNELL, &scene).unwrap();
     // (A small picture, or the test would take a minute.)
     let words = format!("render {} --size 16x12", scene.display());
-    lumbre(&words).exits(0).says("target: error 0.005").says("good enough: ").says("room.png");
+    lumbre(&words).exits(0).says("target: error 0.002").says("good enough: ").says("room.png");
     let picture = read_linear_image(dir.path().join("room.png"), None, &Limits::default()).unwrap();
     assert_eq!((picture.width, picture.height), (16, 12));
     // What is there already may be a texture.
