@@ -1,9 +1,15 @@
 //! `cargo xtask scenes`: writes the project's own scenes, `assets/scenes/*`. Every file there is made by this program, byte for
 //! byte, on any machine; with `--check` it only compares and fails when one is stale.
 
-#[allow(dead_code, unused_imports, reason = "the scenes that use all of it are being written")]
+mod cornell;
 mod kit;
+mod lanterns;
+mod leaves;
+mod materials;
+mod plates;
 mod pool;
+mod prism;
+mod smooth;
 
 use crate::tree;
 use std::path::{Path, PathBuf};
@@ -15,7 +21,19 @@ struct SceneFile {
 }
 
 /// Every file this program answers for.
-const SCENES: &[SceneFile] = &[SceneFile { name: "pool.glb", make: pool::pool }];
+const SCENES: &[SceneFile] = &[
+    SceneFile { name: "cornell.glb", make: cornell::cornell },
+    SceneFile { name: "cornell.mtl", make: cornell::as_mtl },
+    SceneFile { name: "cornell.obj", make: cornell::as_obj },
+    SceneFile { name: "cornell_tile.png", make: cornell::as_png },
+    SceneFile { name: "lanterns.glb", make: lanterns::lanterns },
+    SceneFile { name: "leaves.gltf", make: leaves::leaves },
+    SceneFile { name: "materials.glb", make: materials::materials },
+    SceneFile { name: "plates.glb", make: plates::plates },
+    SceneFile { name: "pool.glb", make: pool::pool },
+    SceneFile { name: "prism.gltf", make: prism::prism },
+    SceneFile { name: "smooth.gltf", make: smooth::smooth },
+];
 
 /// Writes or compares the scenes whose names (with or without ending) are given, or all.
 ///

@@ -75,13 +75,13 @@ impl Sampler {
     }
 
     /// Direction in which the path goes on from vertex `k` (0 is the first surface hit).
-    #[inline]
+    #[inline(always)]
     pub fn direction(&self, k: u32) -> [f32; 2] {
         self.set(CAMERA_SETS + VERTEX_SETS * k).pair(0)
     }
 
     /// Point on a light as seen from vertex `k`.
-    #[inline]
+    #[inline(always)]
     pub fn light_point(&self, k: u32) -> [f32; 2] {
         self.set(if k == 0 { 0 } else { CAMERA_SETS + VERTEX_SETS * (k - 1) }).pair(2)
     }
@@ -104,7 +104,7 @@ impl Sampler {
         self.choices(k).number(2)
     }
 
-    #[inline]
+    #[inline(always)]
     fn choices(&self, k: u32) -> Set {
         self.set(CAMERA_SETS + VERTEX_SETS * k + 1)
     }
@@ -123,8 +123,8 @@ impl Sampler {
         Sampler { key, index: self.index.wrapping_mul(parts).wrapping_add(part), ..*self }
     }
 
-    /// One set of the table.
-    #[inline]
+    /// One set of the table. Always inlined: callers use one or two of its numbers, and the others need not be made.
+    #[inline(always)]
     pub fn set(&self, set: u32) -> Set {
         let key = hash_combine(self.key, set);
         match self.kind {

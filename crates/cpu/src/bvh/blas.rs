@@ -187,11 +187,11 @@ fn offer<Q: Query>(
     (instance, opaque): (u32, bool),
     query: &mut Q,
 ) -> bool {
-    triangle::finish(sheared, lane).is_some_and(|hit| {
-        hit.t > t_min
-            && hit.t <= *t_best
-            && query.offer(Hit::new(instance, packet.ids[lane], hit), opaque, t_best)
-    })
+    // Without a closure, which the compiler would call.
+    let Some(hit) = triangle::finish(sheared, lane) else { return false };
+    hit.t > t_min
+        && hit.t <= *t_best
+        && query.offer(Hit::new(instance, packet.ids[lane], hit), opaque, t_best)
 }
 
 fn can_be_hit([a, b, c]: [Vec3; 3]) -> bool {

@@ -11,3 +11,4 @@ mod lights;
 mod references;
 mod sheets;
 mod transport;
+mod two_formats;

@@ -1,6 +1,8 @@
 //! A glTF 2.0 document under construction, written as one binary `.glb` or as `.gltf` with the buffer in a data URI.
 
-use super::{Census, Mesh, Placement, Texture};
+#[cfg(test)]
+use super::Census;
+use super::{Mesh, Placement, Texture};
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -229,7 +231,13 @@ impl Document {
         self.extras = json!({ "lumbre": { "sky": sky.into(), "sun": sun } });
     }
 
+    /// Gives the scene a sky without a sun: `"gradient"` or a linear colour.
+    pub(crate) fn sky(&mut self, sky: impl Into<Value>) {
+        self.extras = json!({ "lumbre": { "sky": sky.into() } });
+    }
+
     /// What the document holds, counted.
+    #[cfg(test)]
     pub(crate) fn census(&self) -> Census {
         Census::of(&self.json(None))
     }
@@ -248,7 +256,8 @@ impl Document {
         let mut root = Map::new();
         root.insert(
             "asset".into(),
-            json!({ "version": "2.0", "generator": "Lumbre cargo xtask scenes", "copyright": "MIT OR Apache-2.0" }),
+            // A name of long standing, which files that did not change keep.
+            json!({ "version": "2.0", "generator": "Lumbre make_scenes", "copyright": "MIT OR Apache-2.0" }),
         );
         root.insert("scene".into(), json!(0));
         root.insert("scenes".into(), json!([scene]));

@@ -78,7 +78,7 @@ fn predict(filter: u8, left: u8, above: u8, corner: u8) -> u8 {
 }
 
 /// Appends one PNG chunk: length, type, data, CRC of type and data.
-fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {
+pub(crate) fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {
     file.extend((data.len() as u32).to_be_bytes());
     let start = file.len();
     file.extend(kind);

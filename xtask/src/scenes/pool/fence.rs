@@ -51,6 +51,6 @@ pub(super) fn fence(pool: &mut Pool) {
         (0.034, HEIGHT + 0.07),
         (0.0, HEIGHT + 0.1),
     ];
-    let post = lathe(&profile.map(DVec2::from), 8, 50.0);
+    let post = lathe(&profile.map(DVec2::from), 6, 70.0);
     pool.document.scatter("fence post", &post, steel, &posts);
 }

@@ -92,20 +92,20 @@ fn doors(pool: &mut Pool, places: &[Placement]) {
     for y in [[0.012, 0.20], [0.92, 1.04], [height - 0.12, height]] {
         door.append(&slab([-half + 0.11, half - 0.11], y, [back, front], 0.004));
     }
-    for i in 0..9 {
-        let y = 0.24 + 0.075 * f64::from(i);
+    for i in 0..7 {
+        let y = 0.25 + 0.095 * f64::from(i);
         let louvre = slab([-half + 0.11, half - 0.11], [-0.006, 0.006], [-0.03, 0.03], 0.002);
         door.append(&louvre.placed(&Placement::xyz(0.0, y, -0.095).turned(DVec3::X, 35.0)));
     }
     pool.document.scatter("door", &door.box_uvs(DVec2::ZERO), turquoise, places);
     let p = |y: f64, z: f64| DVec3::new(half - 0.06, y, z);
     let mut handle = tube(
-        &round_path(&[p(0.98, -0.09), p(0.98, -0.03), p(1.22, -0.03), p(1.22, -0.09)], 0.02, 4),
+        &round_path(&[p(0.98, -0.09), p(0.98, -0.03), p(1.22, -0.03), p(1.22, -0.09)], 0.02, 2),
         0.009,
-        10,
+        8,
     );
     let lock = [(0.0, 0.0), (0.024, 0.0), (0.024, 0.006), (0.0, 0.006)].map(DVec2::from);
-    handle.append(&lathe(&lock, 14, 30.0).placed(&Placement::at(p(0.90, -0.092)).turned(DVec3::X, 90.0)));
+    handle.append(&lathe(&lock, 10, 30.0).placed(&Placement::at(p(0.90, -0.092)).turned(DVec3::X, 90.0)));
     let steel = lanes::chrome(pool);
     pool.document.scatter("door handle", &handle, steel, places);
 }
@@ -176,7 +176,7 @@ fn shutters(pool: &mut Pool, places: &[Placement]) {
     pool.document.scatter("shutter", &shutter.box_uvs(DVec2::ZERO), steel, places);
 }
 
-/// A lamp over each door: a trough with one tube. By day they hardly show.
+/// A lamp over each door: a trough with one tube, switched off by day.
 fn lamps(pool: &mut Pool, places: &[Placement]) {
     let white = paint(pool, "white paint", WHITE);
     let mut trough = slab([-0.42, 0.42], [0.0, 0.09], [0.0, 0.05], 0.008);
@@ -184,9 +184,7 @@ fn lamps(pool: &mut Pool, places: &[Placement]) {
         trough.append(&slab(x, [0.015, 0.075], [0.045, 0.105], 0.006));
     }
     pool.document.scatter("lamp", &trough.box_uvs(DVec2::ZERO), white, places);
-    let glow = pool.material("lamp tube", |_| {
-        Material::new("lamp tube", [0.8; 3], 0.3).emissive([1.0, 0.93, 0.80], 14.0)
-    });
+    let glow = pool.material("lamp tube", |_| Material::new("lamp tube", [0.8; 3], 0.3));
     let profile = [(0.0, -0.36), (0.014, -0.36), (0.014, 0.36), (0.0, 0.36)].map(DVec2::from);
     let tube = lathe(&profile, 10, 30.0).placed(&Placement::xyz(0.0, 0.045, 0.078).turned(DVec3::Z, 90.0));
     pool.document.scatter("lamp tube", &tube, glow, places);

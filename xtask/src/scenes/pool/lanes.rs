@@ -26,7 +26,7 @@ pub(super) fn ropes(pool: &mut Pool) {
     );
     let profile =
         [(0.0, -0.105), (0.052, -0.105), (0.066, -0.088), (0.066, 0.088), (0.052, 0.105), (0.0, 0.105)];
-    let float = lathe(&profile.map(DVec2::from), 10, 40.0)
+    let float = lathe(&profile.map(DVec2::from), 8, 50.0)
         .placed(&Placement::xyz(0.0, 0.0, 0.0).turned(DVec3::Z, 90.0));
     let mut places = [Vec::new(), Vec::new()];
     let mut lines = Mesh::default();
@@ -65,7 +65,7 @@ pub(super) fn ladders(pool: &mut Pool) {
             0.16,
             5,
         );
-        ladder.append(&tube(&path, 0.021, 10));
+        ladder.append(&tube(&path, 0.021, 8));
         let flange = [(0.0, 0.0), (0.055, 0.0), (0.055, 0.008), (0.03, 0.02), (0.0, 0.02)].map(DVec2::from);
         ladder.append(&lathe(&flange, 16, 30.0).moved(DVec3::new(x, 0.0, 0.62)));
     }

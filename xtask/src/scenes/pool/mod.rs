@@ -8,6 +8,7 @@ mod canopies;
 mod deck;
 mod fence;
 mod green;
+mod interior;
 mod joinery;
 mod lanes;
 mod props;
@@ -81,6 +82,7 @@ const PARTS: &[fn(&mut Pool)] = &[
     lanes::flags,
     buildings::buildings,
     joinery::joinery,
+    interior::interior,
     canopies::canopies,
     props::props,
     fence::fence,

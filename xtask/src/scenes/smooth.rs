@@ -6,8 +6,7 @@
 //! gives almost no weight to scattered rays that happen to hit it, the only discontinuous part. A numerical model of the estimator
 //! gives slopes of RMSE over 1 to 4096 samples of -1.3 (scrambled Sobol) and -0.50 (random numbers).
 
-use crate::glb::{Document, Placement};
-use crate::shapes::rectangle;
+use super::kit::{Document, Placement, rectangle};
 use glam::DVec3;
 use serde_json::json;
 
@@ -34,6 +33,6 @@ pub(crate) fn smooth() -> Vec<u8> {
     document.object("floor", &geometry, floor, &Placement::at(DVec3::ZERO));
     let geometry = document.geometry(&rectangle(DVec3::new(-0.2, 3.0, 1.0), DVec3::X * 0.4, DVec3::Z * 0.4));
     document.object("light", &geometry, light, &Placement::at(DVec3::ZERO));
-    document.camera(DVec3::new(0.0, 2.2, 0.4), DVec3::new(0.0, 0.0, -0.4), 50.0, 1.0);
+    document.camera("camera", [DVec3::new(0.0, 2.2, 0.4), DVec3::new(0.0, 0.0, -0.4)], 50.0, 1.0);
     document.to_gltf()
 }

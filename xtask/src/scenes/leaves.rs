@@ -3,9 +3,7 @@
 //! A panel of light stands behind two curved leaves, a ball between the panel and the larger leaf: its shadow shows through, and where the leaves
 //! overlap they are darker. A sheet of paper on the floor glows from below.
 
-use crate::glb::{Document, Placement};
-use crate::mesh::Mesh;
-use crate::shapes::{icosphere, rectangle};
+use super::kit::{Document, Mesh, Placement, icosphere, rectangle};
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -46,7 +44,7 @@ pub(crate) fn leaves() -> Vec<u8> {
     }
     let geometry = document.geometry(&arch());
     document.object("paper", &geometry, paper, &Placement::at(DVec3::new(0.62, 0.0, 0.85)));
-    document.camera(DVec3::new(0.1, 1.2, 4.0), DVec3::new(0.05, 0.86, 0.0), 34.0, 4.0 / 3.0);
+    document.camera("camera", [DVec3::new(0.1, 1.2, 4.0), DVec3::new(0.05, 0.86, 0.0)], 34.0, 4.0 / 3.0);
     document.to_gltf()
 }
 
@@ -84,7 +82,7 @@ fn surface(columns: usize, rows: usize, f: impl Fn(DVec2) -> DVec3) -> Mesh {
             mesh.push(f(p), along(DVec2::X).cross(along(DVec2::Y)));
         }
     }
-    let at = |column: usize, row: usize| (row * (columns + 1) + column) as u16;
+    let at = |column: usize, row: usize| (row * (columns + 1) + column) as u32;
     for row in 0..rows {
         for column in 0..columns {
             mesh.quad(at(column, row), at(column + 1, row), at(column + 1, row + 1), at(column, row + 1));

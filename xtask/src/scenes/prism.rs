@@ -1,9 +1,7 @@
 //! `prism.gltf`: glass that disperses (`KHR_materials_dispersion`). A prism of heavy flint and a cut diamond stand before bright bars on a dark wall; what is
 //! seen through them has coloured edges, and the diamond throws coloured light on the floor.
 
-use crate::glb::{Document, Placement};
-use crate::mesh::Mesh;
-use crate::shapes::{faceted, rectangle};
+use super::kit::{Document, Mesh, Placement, faceted, rectangle};
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -38,7 +36,7 @@ pub(crate) fn prism() -> Vec<u8> {
         diamond,
         Placement::at(DVec3::new(0.75, 0.62, 0.5)).scaled(0.6).turned_y(11.0),
     );
-    document.camera(DVec3::new(0.0, 1.25, 4.2), DVec3::new(0.0, 0.72, 0.0), 34.0, 4.0 / 3.0);
+    document.camera("camera", [DVec3::new(0.0, 1.25, 4.2), DVec3::new(0.0, 0.72, 0.0)], 34.0, 4.0 / 3.0);
     document.to_gltf()
 }
 
@@ -108,18 +106,15 @@ fn brilliant() -> Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::checks::{assert_closed, assert_oriented};
+    use crate::scenes::kit::checks::{assert_closed, assert_oriented};
 
     #[test]
     fn stones_are_closed_and_face_outward() {
         for mesh in [wedge(), brilliant()] {
             assert_oriented(&mesh);
             assert_closed(&mesh);
-            let volume: f64 = mesh
-                .triangles
-                .iter()
-                .map(|&t| mesh.area_vector(t).dot(mesh.positions[usize::from(t[0])]))
-                .sum();
+            let volume: f64 =
+                mesh.triangles.iter().map(|&t| mesh.area_vector(t).dot(mesh.positions[t[0] as usize])).sum();
             assert!(volume > 0.0);
         }
     }

@@ -1,6 +1,8 @@
 //! The smallest PNG writer that serves: a palette of up to 16 colours, 4 bits per pixel, zlib blocks stored as they are. It is
 //! written out here so that the bytes never change with the version of a compressor (PNG 2nd edition; RFC 1950, 1951).
 
+use crate::scenes::kit::png_chunk;
+
 /// An indexed picture, row 0 on top; `pixels` holds palette indices.
 pub(crate) struct Indexed {
     pub(crate) width: usize,
@@ -26,22 +28,12 @@ pub(crate) fn encode(image: &Indexed) -> Vec<u8> {
     header.extend((image.height as u32).to_be_bytes());
     header.extend([4, 3, 0, 0, 0]); // 4 bits, palette, deflate, adaptive filters, no interlace
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
-    chunk(&mut file, b"IHDR", &header);
-    chunk(&mut file, b"sRGB", &[0]);
-    chunk(&mut file, b"PLTE", image.palette.as_flattened());
-    chunk(&mut file, b"IDAT", &zlib_stored(&rows));
-    chunk(&mut file, b"IEND", &[]);
+    png_chunk(&mut file, b"IHDR", &header);
+    png_chunk(&mut file, b"sRGB", &[0]);
+    png_chunk(&mut file, b"PLTE", image.palette.as_flattened());
+    png_chunk(&mut file, b"IDAT", &zlib_stored(&rows));
+    png_chunk(&mut file, b"IEND", &[]);
     file
-}
-
-/// Appends one PNG chunk: length, type, data, CRC of type and data.
-fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {
-    file.extend((data.len() as u32).to_be_bytes());
-    let start = file.len();
-    file.extend(kind);
-    file.extend(data);
-    let crc = crc32(&file[start..]);
-    file.extend(crc.to_be_bytes());
 }
 
 /// The data as a zlib stream of stored blocks.
@@ -65,23 +57,12 @@ fn zlib_stored(data: &[u8]) -> Vec<u8> {
     stream
 }
 
-/// CRC-32 with the polynomial 0xEDB88320, as PNG and zip use it.
-fn crc32(data: &[u8]) -> u32 {
-    !data.iter().fold(!0u32, |crc, &byte| {
-        (0..8).fold(
-            crc ^ u32::from(byte),
-            |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 },
-        )
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn checksums_match_their_published_check_values() {
-        assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
+    fn the_checksum_matches_its_published_check_value() {
         let stream = zlib_stored(b"Wikipedia");
         assert_eq!(stream[stream.len() - 4..], 0x11E6_0398u32.to_be_bytes());
     }

@@ -2,10 +2,14 @@
 //! under the ceiling and a floor of patterned cement tiles; in it a copper trefoil on a plinth, a glazed vase, a clear glass ball and
 //! two small glazed ones. Metres; dimensions and colours are this project's own.
 
-use crate::glb::{Document, Geometry, Placement};
-use crate::mesh::Mesh;
-use crate::shapes::{icosphere, rectangle, revolve, rounded_box, trefoil};
-use crate::{png, tile};
+mod obj;
+mod png;
+mod tile;
+
+use crate::scenes::kit::{
+    Document, Geometry, Mesh, Placement, icosphere, rectangle, revolve, rounded_box, trefoil,
+};
+
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 
@@ -23,8 +27,23 @@ pub(crate) fn cornell() -> Vec<u8> {
     room(&mut document);
     lamp(&mut document);
     still_life(&mut document);
-    document.camera(DVec3::new(0.0, 1.45, 4.9), DVec3::new(0.0, 0.96, 0.0), 36.5, 4.0 / 3.0);
+    document.camera("camera", [DVec3::new(0.0, 1.45, 4.9), DVec3::new(0.0, 0.96, 0.0)], 36.5, 4.0 / 3.0);
     document.to_glb()
+}
+
+/// The same room as Wavefront OBJ: mesh, materials, picture of the floor.
+pub(crate) fn as_obj() -> Vec<u8> {
+    obj::obj(&cornell())
+}
+
+/// Its materials.
+pub(crate) fn as_mtl() -> Vec<u8> {
+    obj::mtl(&cornell())
+}
+
+/// Its picture.
+pub(crate) fn as_png() -> Vec<u8> {
+    obj::picture(&cornell())
 }
 
 /// A dielectric material with the given linear colour and roughness.
