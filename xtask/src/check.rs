@@ -15,6 +15,7 @@ const STEPS: &[Step] = &[
     ("licences", licences::run),
     ("scenes", || scenes::run(&["--check".to_owned()])),
     ("clippy", || cargo("clippy", &words("--workspace --all-targets --locked -- -D warnings"), &[])),
+    ("lean", || cargo("check", &words("--package lumbre --no-default-features --examples --locked"), &[])),
     ("doc", || cargo("doc", &words("--workspace --no-deps --locked"), &[("RUSTDOCFLAGS", "-D warnings")])),
 ];
 

@@ -7,6 +7,7 @@ mod gallery;
 mod licences;
 mod lint;
 mod scenes;
+mod targets;
 mod tree;
 mod typos;
 
@@ -22,6 +23,7 @@ typos           spelling of .rs, .md and .toml files
 licences        licences of all dependencies
 scenes [NAME...] [--check]
                 write assets/scenes anew, or compare only
+targets         whether the program compiles for Windows, macOS and 64-bit ARM
 gallery [PART]  draw the pictures of docs/gallery.md again, those whose command contains PART
 ";
 
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         ("gallery", _) => gallery::run(&rest),
         ("check", true) => check::run(),
         ("lint", true) => lint::run(),
+        ("targets", true) => targets::run(),
         ("typos", true) => typos::run(),
         ("licences", true) => licences::run(),
         ("" | "help" | "--help" | "-h", _) => {

@@ -5,9 +5,12 @@ mod compare;
 mod console;
 mod exit;
 mod flags;
+mod generate;
 mod info;
 mod interrupt;
 mod memory;
+mod merge;
+mod outputs;
 mod progress;
 mod render;
 
@@ -27,14 +30,17 @@ fn main() -> ExitCode {
         }
     };
     panic::set_hook(Box::new(report_bug));
-    guarded(|| run(&cli.command)).into()
+    guarded(|| run(cli.command)).into()
 }
 
-fn run(command: &Command) -> Result<Code, Failure> {
+fn run(command: Command) -> Result<Code, Failure> {
     match command {
-        Command::Render(args) => render::run(args),
-        Command::Info(args) => info::run(args),
-        Command::Compare(args) => compare::run(args),
+        Command::Render(mut args) => render::run(&mut args),
+        Command::Info(args) => info::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Completions(args) => generate::completions(&args),
+        Command::Man(args) => generate::man(&args),
+        Command::Merge(args) => merge::run(&args),
     }
 }
 

@@ -1,39 +1,95 @@
 //! How much memory a picture will take, and how much there is: said before the work starts, not after an hour of it.
 
 use crate::exit::{Code, Failure};
+use lumbre::Estimator;
 use lumbre::core::Film;
+use lumbre::scene::CompiledScene;
 use std::fs;
 
-/// Bytes that the planes of an output take while it is put together, per pixel.
-pub(crate) const PNG_BYTES_PER_PIXEL: u64 = 12 + 3;
-/// As above: 15 planes of floats, once as such and once as the file's rows.
-pub(crate) const EXR_BYTES_PER_PIXEL: u64 = 2 * 15 * 4;
+/// Bytes that the planes of an EXR take while it is put together, per pixel: 16 planes of floats, once as such and once as the
+/// file's rows.
+pub(crate) const EXR_BYTES_PER_PIXEL: u64 = 2 * 16 * 4;
 
-/// Fails with code 71 if the film of this size and `per_pixel` bytes more for the output exceed what is available or `limit`.
-pub(crate) fn check(size: [u32; 2], per_pixel: u64, limit: Option<u64>) -> Result<(), Failure> {
-    let [width, height] = size;
-    let need = Film::bytes(width, height) + u64::from(width) * u64::from(height) * per_pixel;
-    let there_is = |bytes: u64, what: &str| {
-        let message = format!(
-            "a picture of {width}x{height} pixels takes {} of memory, {what} {}",
-            human(need),
-            human(bytes)
-        );
-        if need > bytes { Err(Failure::new(Code::Memory, message)) } else { Ok(()) }
-    };
-    limit.map_or(Ok(()), |l| there_is(l, "--memory-limit is"))?;
-    available().map_or(Ok(()), |a| there_is(a, "and there is"))
+/// What a picture takes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Picture {
+    /// Of what is rendered.
+    pub(crate) size: [u32; 2],
+    /// While the most demanding output is put together.
+    pub(crate) output_per_pixel: u64,
+    /// Copies of the film that are there at a time.
+    pub(crate) films: u64,
 }
 
-/// Bytes that can still be taken; `None` where the system does not say.
+impl Picture {
+    fn bytes(&self) -> u64 {
+        let [width, height] = self.size;
+        let pixels = u64::from(width) * u64::from(height);
+        self.films * Film::bytes(width, height) + Estimator::bytes(pixels) + pixels * self.output_per_pixel
+    }
+
+    fn name(&self) -> String {
+        format!("a picture of {}x{} pixels", self.size[0], self.size[1])
+    }
+
+    /// Fails with code 71 if film, error estimate and outputs exceed what is available or `limit`.
+    pub(crate) fn check(&self, limit: Option<u64>) -> Result<(), Failure> {
+        fits(self.bytes(), self.bytes(), &self.name(), limit)
+    }
+
+    /// The same for all that there will be once the scene, which is in memory by now, is built.
+    pub(crate) fn check_with(&self, scene: &CompiledScene, limit: Option<u64>) -> Result<(), Failure> {
+        let building = triangles(scene) * BUILD_BYTES_PER_TRIANGLE;
+        let what = format!(
+            "{} with this scene ({} of it, {} to build it)",
+            self.name(),
+            human(scene.bytes()),
+            human(building)
+        );
+        let more = self.bytes() + building;
+        fits(more + scene.bytes(), more, &what, limit)
+    }
+}
+
+/// Bytes per triangle that building the acceleration structure takes at its peak, with the 50 or so that the structure keeps;
+/// measured: 270 on a mesh of two million triangles.
+const BUILD_BYTES_PER_TRIANGLE: u64 = 300;
+
+/// Triangles that are built into trees: those of a mesh once, however often it is placed.
+fn triangles(scene: &CompiledScene) -> u64 {
+    scene.triangles.len() as u64
+}
+
+/// `all` against the limit that the user set, `more` against what the system has left.
+fn fits(all: u64, more: u64, what: &str, limit: Option<u64>) -> Result<(), Failure> {
+    let too_much = |need: u64, bytes: u64, whose: &str| {
+        Failure::new(
+            Code::Memory,
+            format!("{what} takes {} of memory, {whose} {}", human(need), human(bytes)),
+        )
+    };
+    match (limit, available()) {
+        (Some(limit), _) if all > limit => Err(too_much(all, limit, "--memory-limit is")),
+        (_, Some(there_is)) if more > there_is => Err(too_much(more, there_is, "and there is")),
+        _ => Ok(()),
+    }
+}
+
+/// Bytes that can still be taken; `None` where the system does not say. Linux says in files; macOS and Windows only through calls into
+/// C, which this program does without: there `--memory-limit` is the guard.
 fn available() -> Option<u64> {
-    let system = fs::read_to_string("/proc/meminfo").ok().and_then(|t| mem_available(&t));
+    let system = fs::read_to_string("/proc/meminfo").ok().and_then(|t| kilobytes(&t, "MemAvailable:"));
     system.into_iter().chain(cgroup_room()).min()
 }
 
-/// `MemAvailable` of Linux's /proc/meminfo, bytes.
-fn mem_available(meminfo: &str) -> Option<u64> {
-    let line = meminfo.lines().find_map(|l| l.strip_prefix("MemAvailable:"))?;
+/// The most that this process has held, bytes; `None` where the system does not say (as above).
+pub(crate) fn peak() -> Option<u64> {
+    fs::read_to_string("/proc/self/status").ok().and_then(|t| kilobytes(&t, "VmHWM:"))
+}
+
+/// A line of Linux's /proc/meminfo and its kin, bytes.
+fn kilobytes(text: &str, name: &str) -> Option<u64> {
+    let line = text.lines().find_map(|l| l.strip_prefix(name))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
@@ -63,17 +119,35 @@ mod tests {
     #[test]
     fn meminfo_is_read() {
         let text = "MemTotal:       16000000 kB\nMemFree: 5 kB\nMemAvailable:    8000000 kB\n";
-        assert_eq!(mem_available(text), Some(8_000_000 * 1024));
-        assert_eq!(mem_available("MemTotal: 5 kB\n"), None);
-        assert_eq!(mem_available("MemAvailable: many kB\n"), None);
+        assert_eq!(kilobytes(text, "MemAvailable:"), Some(8_000_000 * 1024));
+        assert_eq!(kilobytes("MemTotal: 5 kB\n", "MemAvailable:"), None);
+        assert_eq!(kilobytes("MemAvailable: many kB\n", "MemAvailable:"), None);
     }
 
     #[test]
     fn the_largest_picture_does_not_overflow_and_a_limit_holds() {
-        let e = check([32_768, 32_768], EXR_BYTES_PER_PIXEL, Some(1 << 30)).unwrap_err();
+        let picture = |side, films| Picture { size: [side; 2], output_per_pixel: EXR_BYTES_PER_PIXEL, films };
+        let e = picture(32_768, 2).check(Some(1 << 30)).unwrap_err();
         assert_eq!(e.code, Code::Memory);
         assert!(e.message.ends_with("--memory-limit is 1.0 GiB"), "{}", e.message);
-        assert!(check([16, 16], PNG_BYTES_PER_PIXEL, Some(1 << 20)).is_ok());
-        assert!(check([16, 16], PNG_BYTES_PER_PIXEL, Some(1 << 10)).is_err());
+        assert!(picture(16, 1).check(Some(1 << 20)).is_ok());
+        assert!(picture(16, 1).check(Some(1 << 10)).is_err());
+        assert!(picture(16, 2).bytes() > picture(16, 1).bytes());
+    }
+
+    #[test]
+    fn the_scene_counts_against_the_limit() {
+        let scene = lumbre::compile(&lumbre::scene::Scene::default()).unwrap().scene;
+        let picture = Picture { size: [16, 16], output_per_pixel: 0, films: 1 };
+        let all = picture.bytes() + scene.bytes() + triangles(&scene) * BUILD_BYTES_PER_TRIANGLE;
+        assert!(picture.check_with(&scene, Some(all)).is_ok());
+        let e = picture.check_with(&scene, Some(all - 1)).unwrap_err();
+        assert!(e.message.contains("with this scene"), "{}", e.message);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn linux_says_what_there_is() {
+        assert!(available().is_some_and(|a| a > 1 << 20) && peak().is_some_and(|p| p > 1 << 20));
     }
 }

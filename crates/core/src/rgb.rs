@@ -44,6 +44,11 @@ impl Rgb {
     pub const fn to_array(self) -> [f32; 3] {
         [self.r, self.g, self.b]
     }
+    /// Colours as a list of numbers: red, green and blue of each.
+    #[inline]
+    pub fn as_floats(colors: &[Rgb]) -> &[f32] {
+        bytemuck::cast_slice(colors)
+    }
     /// Relative luminance Y, Rec. 709 weights.
     #[inline]
     pub fn luminance(self) -> f32 {

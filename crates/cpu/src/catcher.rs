@@ -18,6 +18,7 @@ use crate::tracer::{CoverageKey, Tracer};
 use lumbre_core::Spectrum;
 use lumbre_core::medium::MediumStack;
 use lumbre_core::sampler::Sampler;
+use lumbre_scene::compiled::lights::LightGroup;
 
 /// Light samples of which one is asked whether it arrives; a power of two.
 const CANDIDATES: u32 = 16;
@@ -92,9 +93,18 @@ impl Tracer<'_> {
         let it = catcher.it;
         let side = if it.front { 1.0 } else { -1.0 };
         let [stream, _] = streams(catcher.passed);
+        // Half of them from each group, where both have lights; all are then as many to their group.
+        let [near, far] = [LightGroup::Near, LightGroup::Far].map(|g| self.scene.has_lights(g));
+        let group = |part| match (near, far) {
+            (true, true) if part < CANDIDATES / 2 => LightGroup::Near,
+            (true, false) => LightGroup::Near,
+            _ => LightGroup::Far,
+        };
         core::array::from_fn(|part| {
             let numbers = sampler.split(stream, CANDIDATES, part as u32);
-            let light = sample_light(self.scene, it.p, numbers.light_point(0), || numbers.light(0))?;
+            let light = sample_light(self.scene, group(part as u32), it.p, numbers.light_point(0), || {
+                numbers.light(0)
+            })?;
             let (cos, cos_g) = (side * it.ns.dot(light.wi), side * it.ng.dot(light.wi));
             (cos > 0.0 && cos_g > 0.0).then(|| (light.radiance * (cos / light.pdf), light))
         })

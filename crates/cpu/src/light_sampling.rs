@@ -1,5 +1,5 @@
-//! Next-event estimation: choose a light, mostly by power (`compile/lights.rs` makes the table), a point on it, and know the density with which scattered rays would have been
-//! matched against it.
+//! Next-event estimation: choose a light of a group, mostly by power (`compile/lights.rs` makes the tables), a point on it, and know the density
+//! with which scattered rays would have been matched against it.
 
 use crate::shadow::ShadowEnd;
 use crate::surface;
@@ -10,7 +10,7 @@ use lumbre_core::light::triangle::TriangleLight;
 use lumbre_core::light::{directional, point, spot};
 use lumbre_core::{Rgb, Spectrum};
 use lumbre_scene::CompiledScene;
-use lumbre_scene::compiled::lights::{PunctualRecord, TriangleLightRecord, kind};
+use lumbre_scene::compiled::lights::{LightGroup, PunctualRecord, TriangleLightRecord, kind};
 use lumbre_scene::compiled::texture::Encoding;
 
 /// Light that may arrive at a point.
@@ -24,7 +24,7 @@ pub struct LightSample {
     pub end: ShadowEnd,
     /// Radiance; for lights that cannot be hit, irradiance on a surface that faces them. Without occlusion, and divided by nothing.
     pub radiance: Spectrum,
-    /// Probability of the light times, for lights that can be hit, the density of `wi` in sr⁻¹.
+    /// Probability of the light in its group times, for lights that can be hit, the density of `wi` in sr⁻¹.
     pub pdf: f32,
     /// It cannot be hit: no density, no competing technique.
     pub is_delta: bool,
@@ -46,21 +46,23 @@ pub fn sun(scene: &CompiledScene) -> SunDisc {
 /// Below this probability a light leaves too few digits of the number that chose it for a point on it.
 const FEW_DIGITS: f32 = 1.0 / 4096.0;
 
-/// Draws a light and a point on it, as seen from `p`. `None`: no light, or one that gives nothing here.
+/// Draws a light of a group and a point on it, as seen from `p`. `None`: no light, or one that gives nothing here.
 ///
 /// The first number of `point` chooses the light, and what is left of it the point: so a lamp of many triangles is stratified as a whole. For
 /// a light of small probability `fine` gives that coordinate anew.
 pub fn sample_light(
     scene: &CompiledScene,
+    group: LightGroup,
     p: Vec3,
     point: [f32; 2],
     fine: impl FnOnce() -> f32,
 ) -> Option<LightSample> {
-    let choice = sample_cdf(&scene.light_cdf, point[0])?;
+    let (first, cdf) = scene.light_group(group);
+    let choice = sample_cdf(cdf, point[0])?;
     let u = [if choice.probability < FEW_DIGITS { fine() } else { choice.remainder }, point[1]];
-    let record = scene.lights[choice.index];
+    let record = scene.lights[first + choice.index];
     let prob = choice.probability;
-    let light = choice.index as u32;
+    let light = (first + choice.index) as u32;
     let far = |wi, pdf, radiance| LightSample {
         light,
         wi,

@@ -19,6 +19,7 @@ use lumbre_core::settings::{RenderSettings, TransmissiveShadows};
 use lumbre_core::wavelength::Wavelength;
 use lumbre_core::{Ray, Spectrum};
 use lumbre_scene::compiled::NONE;
+use lumbre_scene::compiled::lights::LightGroup;
 use lumbre_scene::compiled::material::flag;
 
 /// Largest probability of surviving roulette: a path without absorption ends some day too.
@@ -26,6 +27,23 @@ const MAX_SURVIVAL: f32 = 0.95;
 
 /// Most shadow catchers that one path passes; a further one is met as the plain surface that it is.
 const MOST_CATCHERS: u32 = 64;
+
+/// A group whose light is below this share of both groups', shadows left out, is not asked for at every vertex.
+const FAINT: f32 = 0.05;
+/// But with this probability at least: an unshadowed share may mislead.
+const LEAST_ASKED: f32 = 0.1;
+
+/// Light that arrives at a surface if nothing is in its way.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    light: LightSample,
+    /// It comes from the side that the surface reflects to.
+    reflects: bool,
+    /// What the surface makes of it, over its density.
+    unshadowed: Spectrum,
+    /// Density of scattering there, sr⁻¹.
+    pdf_bsdf: f32,
+}
 
 /// How the current ray came about: what light it meets must be weighed against.
 #[derive(Clone, Copy, Debug)]
@@ -165,10 +183,10 @@ impl<O: PathObserver> Path<'_, '_, O> {
             if self.depth >= self.max_depth {
                 return self.end("the path is as long as it may be", first_hit);
             }
-            // Sample one light.
+            // Sample one light of each group.
             let wo_local = surface.frame.to_local(wo);
             if self.tracer.settings.light_sampling && surface.bsdf.has_smooth_lobes() {
-                self.add_light(&it, &surface, wo_local);
+                self.add_lights(&it, &surface, wo_local);
             }
             // Sample the BSDF.
             let lobe = if surface.bsdf.has_one_lobe() { 0.0 } else { self.sampler.lobe(self.depth) };
@@ -310,40 +328,78 @@ impl<O: PathObserver> Path<'_, '_, O> {
         }
     }
 
-    /// Next-event estimation.
-    fn add_light(&mut self, it: &Interaction, surface: &Surface, wo_local: Vec3) {
+    /// Next-event estimation: a light of each group. Where there are both, the one that would give much less even without
+    /// any shadow is asked for now and then only.
+    fn add_lights(&mut self, it: &Interaction, surface: &Surface, wo_local: Vec3) {
         let scene = self.tracer.scene;
-        let Some(light) = sample_light(scene, it.p, self.sampler.light_point(self.depth), || {
-            self.sampler.light(self.depth)
-        }) else {
+        let point = self.sampler.light_point(self.depth);
+        let [near, far] = [LightGroup::Near, LightGroup::Far].map(|g| scene.has_lights(g));
+        if !(near && far) {
+            let group = if near { LightGroup::Near } else { LightGroup::Far };
+            if let Some(candidate) = self.candidate(it, surface, wo_local, (group, point)) {
+                self.add_light(it, surface, &candidate, 1.0);
+            }
             return;
-        };
+        }
+        let second = self.sampler.second_light_point(self.depth);
+        let pair = [(LightGroup::Far, point), (LightGroup::Near, second)]
+            .map(|from| self.candidate(it, surface, wo_local, from));
+        let [a, b] = pair.each_ref().map(|c| c.as_ref().map_or(0.0, |c| c.unshadowed.average()));
+        for (candidate, other) in pair.iter().zip([b, a]) {
+            let Some(candidate) = candidate else { continue };
+            let share = candidate.unshadowed.average() / (FAINT * (a + b));
+            // Both cannot be faint, so one number serves.
+            let prob = if share < 1.0 && other > 0.0 { share.max(LEAST_ASKED) } else { 1.0 };
+            if prob >= 1.0 || self.sampler.light_roulette(self.depth) < prob {
+                self.add_light(it, surface, candidate, prob);
+            }
+        }
+    }
+
+    /// A light sample with what the surface makes of it; `None` where that is nothing.
+    #[inline]
+    fn candidate(
+        &self,
+        it: &Interaction,
+        surface: &Surface,
+        wo_local: Vec3,
+        (group, point): (LightGroup, [f32; 2]),
+    ) -> Option<Candidate> {
+        let light = sample_light(self.tracer.scene, group, it.p, point, || self.sampler.light(self.depth))?;
         let wi_local = surface.frame.to_local(light.wi);
         // Reflection and transmission are told apart by the shading normal; the geometric one must agree.
         let reflects = light.wi.dot(surface.ng) > 0.0;
         if reflects != (wi_local.z > 0.0) {
-            return;
+            return None;
         }
         let (mut f, pdf_bsdf) = surface.bsdf.eval_pdf(wo_local, wi_local, TransportMode::Radiance);
         if f.is_black() {
-            return;
+            return None;
         }
         // Light that crosses here into a solid that disperses has the wavelength that the path would take.
         if let Some(takes) = surface.takes.filter(|t| !reflects && !t.on_arrival) {
             f *= takes.wavelength.weight;
         }
+        let unshadowed = f * light.radiance / light.pdf;
+        Some(Candidate { light, reflects, unshadowed, pdf_bsdf })
+    }
+
+    /// Adds what arrives of a light sample that is asked for with probability `prob`.
+    #[inline]
+    fn add_light(&mut self, it: &Interaction, surface: &Surface, candidate: &Candidate, prob: f32) {
+        let &Candidate { ref light, reflects, unshadowed, pdf_bsdf } = candidate;
         let Arriving { share: transmittance, through_solid } =
-            self.light_transmittance(it, surface, &light, reflects);
+            self.light_transmittance(it, surface, light, reflects);
         // Scattered rays do not find this light, or leave it out.
         let alone = light.is_delta || through_solid;
         let mis_weight = if alone { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
-        let contribution = self.beta * f * light.radiance * transmittance * (mis_weight / light.pdf);
+        let contribution = self.beta * unshadowed * transmittance * (mis_weight / prob);
         let contribution = self.clamped(contribution, self.depth + 1);
         self.radiance += contribution;
         self.observer.event(PathEvent::Light {
             light: light.light,
             wi: light.wi,
-            pdf: light.pdf,
+            pdf: light.pdf * prob,
             transmittance,
             mis_weight,
             contribution,

@@ -3,7 +3,8 @@
 
 use crate::IoError;
 use crate::limits::Room;
-use std::fs::{self, File};
+use std::ffi::OsString;
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -34,7 +35,8 @@ pub(crate) fn read_file(path: &Path, limit: impl Into<Room>) -> Result<Vec<u8>, 
 }
 
 /// Writes a file through `fill` in one step: temporary file in the same folder, flush to disk, rename. When anything
-/// fails, `path` is as it was and the temporary file is gone.
+/// fails, `path` is as it was and the temporary file is gone. One that is left by a process that was killed is removed the
+/// next time the same target is written.
 pub(crate) fn write_atomic(
     path: &Path,
     fill: impl FnOnce(&mut File) -> Result<(), String>,
@@ -42,6 +44,7 @@ pub(crate) fn write_atomic(
     let fail = |e: io::Error| IoError::write(path, e);
     let target = write_target(path)?;
     let folder = folder_of(&target);
+    remove_leftovers(folder, &target);
     let mut temporary = temporary_beside(folder, &target).map_err(|reason| IoError::write(path, reason))?;
     fill(temporary.as_file_mut()).map_err(|reason| IoError::write(path, reason))?;
     temporary.as_file().sync_all().map_err(fail)?;
@@ -81,13 +84,43 @@ fn write_target(path: &Path) -> Result<PathBuf, IoError> {
     fs::canonicalize(path).map_err(|e| IoError::write(path, e))
 }
 
-/// The reason of a failure names the folder: nobody knows the temporary file.
-fn temporary_beside(folder: &Path, target: &Path) -> Result<tempfile::NamedTempFile, String> {
-    let mut prefix = std::ffi::OsString::from(".");
+/// What the names of temporary files for a target begin and end with; six letters or digits stand between.
+fn temporary_name(target: &Path) -> (OsString, &'static str) {
+    let mut prefix = OsString::from(".");
     prefix.push(target.file_name().unwrap_or_default());
     prefix.push(".");
+    (prefix, ".tmp")
+}
+
+/// Removes temporary files for this target that no process writes any more: those that are not locked. What cannot be
+/// removed stays.
+fn remove_leftovers(folder: &Path, target: &Path) {
+    let (prefix, suffix) = temporary_name(target);
+    let (prefix, suffix) = (prefix.as_encoded_bytes(), suffix.as_bytes());
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let middle = name.as_encoded_bytes().strip_prefix(prefix).and_then(|n| n.strip_suffix(suffix));
+        let ours = middle.is_some_and(|m| m.len() == 6 && m.iter().all(u8::is_ascii_alphanumeric));
+        let regular = entry.file_type().is_ok_and(|t| t.is_file());
+        if !(ours && regular) {
+            continue;
+        }
+        // Not to be waited for: where a file cannot be opened, or locks are not known, it stays.
+        if let Ok(file) = File::options().write(true).open(entry.path())
+            && file.try_lock().is_ok()
+        {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// A new file, locked as long as it is open, so that nobody takes it for a leftover. The reason of a failure names the
+/// folder: nobody knows the temporary file.
+fn temporary_beside(folder: &Path, target: &Path) -> Result<tempfile::NamedTempFile, String> {
+    let (prefix, suffix) = temporary_name(target);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(".tmp");
+    builder.prefix(&prefix).suffix(suffix);
     #[cfg(unix)]
     {
         // As an ordinary new file: read and write for all, less the umask. (The default is private to the user.)
@@ -95,13 +128,23 @@ fn temporary_beside(folder: &Path, target: &Path) -> Result<tempfile::NamedTempF
         let mode = fs::metadata(target).map_or(0o666, |m| m.permissions().mode() & 0o777);
         builder.permissions(fs::Permissions::from_mode(mode));
     }
-    builder.tempfile_in(folder).map_err(|e| match fs::metadata(folder) {
+    let failed = |e: io::Error| match fs::metadata(folder) {
         Err(why) if why.kind() == io::ErrorKind::NotFound => {
             format!("there is no folder {}", folder.display())
         }
         Ok(kind) if !kind.is_dir() => format!("{} is no folder", folder.display()),
         _ => format!("the folder {} takes no new file: {}", folder.display(), e.kind()),
-    })
+    };
+    loop {
+        let temporary = builder.tempfile_in(folder).map_err(failed)?;
+        // Another process may have removed it between its birth and the lock: then it is not there any more. Where there
+        // are no locks nobody removes anything.
+        let locked = temporary.as_file().try_lock();
+        let taken = matches!(locked, Err(TryLockError::WouldBlock)) || !temporary.path().exists();
+        if !taken {
+            return Ok(temporary);
+        }
+    }
 }
 
 /// Makes the rename last through a power cut, where folders can be synchronised; elsewhere the file is whole anyway.
@@ -140,6 +183,36 @@ mod tests {
         write_atomic(&path, |f| f.write_all(b"new").map_err(|e| e.to_string())).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"new");
         assert_eq!(names(dir.path()), ["out.png"]);
+    }
+
+    #[test]
+    fn leftovers_of_the_killed_go_and_those_of_the_living_stay() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("out.png");
+        let others =
+            [".out.png.abc12.tmp", ".out.png.abc-23.tmp", ".out.jpg.abc123.tmp", "out.png.abc123.tmp"];
+        for name in others.into_iter().chain([".out.png.abc123.tmp", ".out.png.XYZ789.tmp"]) {
+            fs::write(dir.path().join(name), "half").unwrap();
+        }
+        fs::create_dir(dir.path().join(".out.png.folder.tmp")).unwrap();
+        let alive = File::open(dir.path().join(".out.png.XYZ789.tmp")).unwrap();
+        alive.try_lock().unwrap();
+        write_atomic(&path, |f| {
+            // While one is being written, the next writer lets it be.
+            let before = names(dir.path());
+            write_atomic(&path, |_| Ok(())).unwrap();
+            assert!(before.iter().all(|n| names(dir.path()).contains(n)), "{before:?}");
+            f.write_all(b"new").map_err(|e| e.to_string())
+        })
+        .unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        let mut want: Vec<&str> = others.to_vec();
+        want.extend([".out.png.XYZ789.tmp", ".out.png.folder.tmp", "out.png"]);
+        want.sort();
+        assert_eq!(names(dir.path()), want);
+        drop(alive);
+        write_atomic(&path, |_| Ok(())).unwrap();
+        assert!(!names(dir.path()).contains(&".out.png.XYZ789.tmp".to_string()));
     }
 
     #[test]

@@ -43,6 +43,9 @@ pub trait Backend: Send + Sync {
     /// The device, for people.
     fn device(&self) -> String;
 
+    /// Bytes that its acceleration structures hold.
+    fn memory(&self) -> u64;
+
     /// Adds the samples of a range to every pixel of a film that has the size of the picture. A sample is a pure function of
     /// view, pixel and index, so ranges may come in any order and from anywhere. Stops soon after it is cancelled; pixels may
     /// then differ in their sample counts.
@@ -54,6 +57,10 @@ impl Backend for CpuBackend {
         let threads = rayon::current_num_threads();
         let plural = if threads == 1 { "" } else { "s" };
         format!("CPU ({}, {threads} thread{plural})", self.accel().level().name())
+    }
+
+    fn memory(&self) -> u64 {
+        self.accel().memory() as u64
     }
 
     fn render(&self, view: &View, samples: Range<u32>, film: &mut Film, control: &dyn Control) -> Progress {

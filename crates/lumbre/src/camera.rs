@@ -1,6 +1,7 @@
 //! Which camera a picture is taken with.
 
 use crate::backend::Backend;
+#[cfg(feature = "files")]
 use crate::info::CameraInfo;
 use glam::{Affine3A, Mat4, Vec3};
 use lumbre_core::camera::{Camera, Projection};
@@ -133,6 +134,7 @@ pub fn camera_names(scene: &Scene) -> Vec<String> {
 }
 
 /// What there is to know about the cameras of a scene, in order.
+#[cfg(feature = "files")]
 pub(crate) fn infos(scene: &Scene) -> Vec<CameraInfo> {
     let one = |p: Placed<'_>| CameraInfo {
         name: p.names.into_iter().find(|n| !n.is_empty()).unwrap_or_default().to_string(),

@@ -1,5 +1,6 @@
 //! Stopping a render from outside, and hearing of it on the way.
 
+use crate::render::Watch;
 use lumbre_core::control::{Control, Progress};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,7 +24,7 @@ impl CancelToken {
     }
 }
 
-/// A [`Control`] made of a token and a function that hears of progress. The function is called from any thread of the pool,
+/// A [`Watch`] made of a token and a function that hears of progress. The function is called from any thread of the pool,
 /// after each tile, and calls may overtake each other.
 #[derive(Debug)]
 pub struct Watched<F> {
@@ -46,6 +47,8 @@ impl<F: Fn(Progress) + Sync> Control for Watched<F> {
         (self.on_progress)(so_far);
     }
 }
+
+impl<F: Fn(Progress) + Sync> Watch for Watched<F> {}
 
 #[cfg(test)]
 mod tests {

@@ -111,6 +111,8 @@ impl Target {
             Target::Exr => {
                 write(&path, data);
                 let layers = read_exr(&path, &limits()).is_ok();
+                let part = lumbre::merge::read_part(&path, &limits()).is_ok();
+                assert!(layers || !part, "a part is an EXR");
                 read_environment(&path, &limits()).is_ok() || layers
             }
             Target::Png | Target::Jpeg | Target::WebP | Target::Tga | Target::Bmp => {

@@ -101,6 +101,7 @@ impl Reference {
                 ("seed".into(), SEED.to_string()),
                 ("scene".into(), self.scene.into()),
             ],
+            ..ExrImage::default()
         };
         Ok(lumbre_io::write_exr(path, image)?)
     }

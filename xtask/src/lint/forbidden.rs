@@ -74,6 +74,29 @@ pub(super) fn file_access(source: &Source) -> Vec<Finding> {
     lines.into_iter().map(|line| source.finding(line, "std::fs: only io opens files")).collect()
 }
 
+/// Crates that programs of others are built with.
+const LIBRARIES: &[&str] = &["core", "scene", "io", "cpu", "lumbre"];
+
+/// A library neither prints nor ends the process nor takes over its panics.
+pub(super) fn loud_libraries(source: &Source) -> Vec<Finding> {
+    if !LIBRARIES.contains(&source.krate()) || !source.path.contains("/src/") {
+        return Vec::new();
+    }
+    let macros = ["print", "println", "eprint", "eprintln", "dbg"].into_iter().flat_map(|name| {
+        let uses: Vec<usize> = source.find(&[name, "!"]).collect();
+        uses.into_iter().map(move |i| (i, format!("{name}!")))
+    });
+    let calls = ["exit", "abort", "set_hook"].into_iter().flat_map(|name| {
+        let uses: Vec<usize> = source.find(&[":", name, "("]).collect();
+        uses.into_iter().map(move |i| (i, format!("{name}()")))
+    });
+    let found = macros.chain(calls).map(|(i, what)| (source.tokens[i].line, what));
+    found
+        .filter(|(line, _)| !source.is_test(*line))
+        .map(|(line, what)| source.finding(line, format!("{what} in a library")))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::source::source;
@@ -107,6 +130,16 @@ mod tests {
         }
         let harmless = "fn f() { math::sin(x); x.sqrt(); x.mul_add(y, z); let sin = s.cos; }";
         assert!(platform_float_functions(&source(PATH, harmless)).is_empty());
+    }
+
+    #[test]
+    fn loud_libraries_are_found() {
+        for text in ["fn f() { println!(); }", "fn f() { std::process::exit(1) }", "fn f() { dbg!(x); }"] {
+            assert_eq!(loud_libraries(&source(PATH, text)).len(), 1, "{text}");
+            assert!(loud_libraries(&source("crates/cli/src/a.rs", text)).is_empty());
+            assert!(loud_libraries(&source("crates/lumbre/examples/a.rs", text)).is_empty());
+        }
+        assert!(loud_libraries(&source(PATH, "fn exit() { self.exit(); writeln!(f) }")).is_empty());
     }
 
     #[test]

@@ -41,6 +41,7 @@ const RULES: &[fn(&Source) -> Vec<Finding>] = &[
     forbidden::unfinished,
     forbidden::platform_float_functions,
     forbidden::file_access,
+    forbidden::loud_libraries,
 ];
 
 /// Checks the whole workspace.

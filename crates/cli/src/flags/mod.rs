@@ -2,14 +2,17 @@
 
 pub(crate) mod camera;
 pub(crate) mod compare;
+pub(crate) mod generate;
 pub(crate) mod info;
 pub(crate) mod light;
 pub(crate) mod loading;
+pub(crate) mod merge;
 pub(crate) mod output;
 pub(crate) mod render;
 pub(crate) mod replay;
 pub(crate) mod run;
 pub(crate) mod sampling;
+pub(crate) mod targets;
 pub(crate) mod values;
 
 use clap::{Parser, Subcommand};
@@ -25,10 +28,12 @@ pub(crate) struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
-  lumbre render scene.glb -o picture.png
+  lumbre render scene.glb
+      until the picture is good, into scene.png
   lumbre render scene.gltf -o picture.exr --spp 256 --sky gradient --sun 50,120
   lumbre info scene.glb
   lumbre compare reference.exr picture.exr
+  lumbre merge picture.exr part-1.exr part-2.exr
 
 `lumbre COMMAND --help` says more.";
 
@@ -44,4 +49,13 @@ pub(crate) enum Command {
     /// Measure how much a picture differs from a reference.
     #[command(after_help = compare::EXAMPLES)]
     Compare(compare::CompareArgs),
+    /// Add parts of one render, made apart, to the picture of one run.
+    #[command(after_help = merge::EXAMPLES)]
+    Merge(Box<merge::MergeArgs>),
+    /// Print what makes a shell complete the flags of this program.
+    #[command(after_help = generate::COMPLETIONS_EXAMPLES)]
+    Completions(generate::CompletionsArgs),
+    /// Print the manual page, or write one for each command.
+    #[command(after_help = generate::MAN_EXAMPLES)]
+    Man(generate::ManArgs),
 }

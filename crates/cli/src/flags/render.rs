@@ -3,18 +3,24 @@
 use super::camera::CameraArgs;
 use super::light::LightArgs;
 use super::loading::LoadingArgs;
-use super::output::OutputArgs;
+use super::output::{Background, OutputArgs};
 use super::replay::ReplayArgs;
 use super::run::RunArgs;
 use super::sampling::SamplingArgs;
+use super::targets::TargetArgs;
 use clap::Args;
+use lumbre::core::settings::RenderSettings;
 use std::path::PathBuf;
 
 /// Shown below the flags.
 pub(crate) const EXAMPLES: &str = "\
 Examples:
-  lumbre render scene.glb -o picture.png
-      64 samples a pixel, with the scene's own camera and lights
+  lumbre render scene.glb
+      with the scene's own camera and lights until the picture is good, into scene.png
+  lumbre render scene.glb -o picture.png --time 1min --save-every 10s
+      as good as it gets in a minute, with a look at it now and then
+  lumbre render scene.glb -o picture.png --target-error 0.001 --spp 4096
+      very clean, but at most 4096 samples per pixel
   lumbre render scene.glb -o picture.png -o picture.exr --size 1920x1080 --spp 512
       a PNG to look at, and an EXR with linear radiance, albedo, normal, position, depth and error
   lumbre render scene.glb -o sunny.png --sky gradient --sun 55,130 --exposure -1
@@ -40,6 +46,8 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) output: OutputArgs,
     #[command(flatten)]
+    pub(crate) targets: TargetArgs,
+    #[command(flatten)]
     pub(crate) sampling: SamplingArgs,
     #[command(flatten)]
     pub(crate) camera: CameraArgs,
@@ -51,4 +59,12 @@ pub(crate) struct RenderArgs {
     pub(crate) replay: ReplayArgs,
     #[command(flatten)]
     pub(crate) loading: LoadingArgs,
+}
+
+impl RenderArgs {
+    /// What the integrator honours.
+    pub(crate) fn settings(&self) -> RenderSettings {
+        let transparent_background = self.output.background == Background::Transparent;
+        RenderSettings { transparent_background, ..self.sampling.settings() }
+    }
 }

@@ -57,4 +57,8 @@ pub(crate) struct RunArgs {
     /// How to show progress.
     #[arg(long, default_value = "auto")]
     pub(crate) progress: ProgressFlag,
+
+    /// At the end, say in a table what took how much time and memory; with --progress json as part of the last line.
+    #[arg(long)]
+    pub(crate) stats: bool,
 }

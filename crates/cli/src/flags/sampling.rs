@@ -69,11 +69,6 @@ pub(crate) enum BackFaces {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Sampling")]
 pub(crate) struct SamplingArgs {
-    /// Samples per pixel.
-    #[arg(long, value_name = "N", default_value_t = 64, allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=MAX_SPP))]
-    pub(crate) spp: u32,
-
     /// Most scattering events on a path.
     #[arg(long, value_name = "N|unlimited", allow_negative_numbers = true, default_value = "16", value_parser = depth)]
     pub(crate) max_depth: Depth,
@@ -116,9 +111,6 @@ pub(crate) struct SamplingArgs {
     pub(crate) hemisphere: Hemisphere,
 }
 
-/// Up to here a float in an EXR layer counts samples exactly.
-const MAX_SPP: i64 = 1 << 24;
-
 impl SamplingArgs {
     /// The same in the library's terms.
     pub(crate) fn settings(&self) -> RenderSettings {
@@ -155,7 +147,6 @@ impl SamplingArgs {
     /// Names and values as they stand on the command line, for the metadata of a file.
     pub(crate) fn described(&self) -> Vec<(&'static str, String)> {
         vec![
-            ("spp", self.spp.to_string()),
             ("maxDepth", self.max_depth.to_string()),
             ("roulette", self.roulette.to_string()),
             ("sampler", name(self.sampler)),

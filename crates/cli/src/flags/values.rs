@@ -5,10 +5,12 @@ use lumbre::core::color::{Exposure, srgb_decode_table};
 use lumbre::core::film::Crop;
 use lumbre::core::math::Vec3;
 use lumbre::core::settings::RenderSettings;
+use lumbre::output::Look;
 use lumbre::scene::Sun;
 use lumbre::{Aperture, Focus};
 use std::fmt;
 use std::path::Path;
+use std::time::Duration;
 
 /// Columns and rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -169,6 +171,19 @@ pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
     }
 }
 
+/// `--vignette`.
+pub(crate) fn vignette(text: &str) -> Result<f32, String> {
+    finite(text).and_then(|v| if (0.0..=1.0).contains(&v) { Ok(v) } else { Err("expected 0 to 1".into()) })
+}
+
+/// `--aberration`, per cent.
+pub(crate) fn aberration(text: &str) -> Result<f32, String> {
+    let most = Look::MAX_ABERRATION;
+    let in_range =
+        |v: f32| if v.abs() <= most { Ok(v) } else { Err(format!("expected -{most} to {most} per cent")) };
+    finite(text).and_then(in_range)
+}
+
 /// `--sky`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sky {
@@ -255,6 +270,35 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
     count.ok_or_else(|| format!("{text:?} is not a size such as 800M or 16G"))
 }
 
+/// A length of time, such as `30s`, `1.5min` or `1h30min`: numbers with units, added up.
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
+    let wrong = || format!("{text:?} is not a time such as 30s, 500ms, 1.5min or 1h30min");
+    let (mut rest, mut seconds) = (text.trim(), 0.0);
+    while !rest.is_empty() {
+        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or_else(wrong)?;
+        let (number, unit) = rest.split_at(digits);
+        let letters = unit.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(unit.len());
+        let (unit, after) = unit.split_at(letters);
+        let one = match unit {
+            "ms" => 1e-3,
+            "s" => 1.0,
+            "min" | "m" => 60.0,
+            "h" => 3600.0,
+            _ => return Err(wrong()),
+        };
+        seconds += number.parse::<f64>().map_err(|_| wrong())? * one;
+        rest = after;
+    }
+    // Beyond a century it is a mistake.
+    if seconds > 0.0 && seconds < 3.2e9 { Ok(Duration::from_secs_f64(seconds)) } else { Err(wrong()) }
+}
+
+/// An error that a picture may have: above 0.
+pub(crate) fn error(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
+    number.ok_or_else(|| format!("{text:?} is not a number above 0, such as 0.005"))
+}
+
 /// A number of things.
 pub(crate) fn count(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("{text:?} is not a number from 0"))
@@ -313,6 +357,30 @@ mod tests {
         for wrong in ["91,0", "45", "45,0,-1", "45,0,1,2"] {
             assert!(sun(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn times_have_units_and_errors_are_positive() {
+        let ms = |t: &str| duration(t).map(|d| d.as_millis()).map_err(drop);
+        assert_eq!(
+            ["250ms", "30s", "1.5min", "2m", "1h"].map(ms),
+            [250, 30_000, 90_000, 120_000, 3_600_000].map(Ok)
+        );
+        assert_eq!(ms("1h30min"), Ok(5_400_000));
+        for wrong in ["", "30", "s", "-1s", "1d", "1s2", "1.2.3s", "0s", "1e99s", "99999999h", "3 s", "nans"]
+        {
+            assert!(duration(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(error("5e-3"), Ok(0.005));
+        assert!(["0", "-1", "nan", "inf", "x"].into_iter().all(|t| error(t).is_err()));
+    }
+
+    #[test]
+    fn lenses_have_bounds() {
+        assert_eq!((vignette("0.5"), vignette("1")), (Ok(0.5), Ok(1.0)));
+        assert_eq!((aberration("-50"), aberration("1.5")), (Ok(-50.0), Ok(1.5)));
+        assert!(vignette("1.1").is_err() && vignette("-0.1").is_err() && vignette("nan").is_err());
+        assert!(aberration("51").is_err() && aberration("inf").is_err());
     }
 
     #[test]

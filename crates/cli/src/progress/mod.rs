@@ -2,14 +2,18 @@
 
 mod bar;
 mod json;
-mod plain;
+pub(crate) mod plain;
+pub(crate) mod stats;
 
 use crate::console;
 use crate::exit::Failure;
 use crate::flags::run::ProgressFlag;
 use lumbre::core::control::Progress;
+use lumbre::{Outcome, SoFar, Targets};
+use stats::Stats;
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// What is being rendered.
@@ -18,48 +22,64 @@ pub(crate) struct Start {
     pub(crate) device: String,
     pub(crate) threads: usize,
     pub(crate) size: [u32; 2],
-    pub(crate) spp: u32,
+    pub(crate) targets: Targets,
 }
 
 impl Start {
-    fn total(&self) -> u64 {
-        u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.spp)
+    /// Camera samples, where the target says how many.
+    fn total(&self) -> Option<u64> {
+        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]);
+        self.targets.spp.map(|spp| pixels * u64::from(spp))
+    }
+
+    /// A moment so many seconds after the beginning.
+    fn moment(&self, done: Progress, so_far: &SoFar, seconds: f64) -> Moment {
+        let total = self.total();
+        let by_samples = total.filter(|_| done.samples > 0).map(|total| {
+            let share = done.samples as f64 / total.max(1) as f64;
+            seconds * (1.0 - share).max(0.0) / share
+        });
+        let by_time = self.targets.time.map(|t| (t.as_secs_f64() - seconds).max(0.0));
+        // What the last pass promised, most of all of the error.
+        let promised = so_far.seconds_left.map(|left| (left + so_far.seconds - seconds).max(0.0));
+        let left = [by_samples, by_time, promised].into_iter().flatten().reduce(f64::min);
+        Moment { done, total, spp: so_far.spp, error: so_far.error, seconds, seconds_left: left }
     }
 }
 
 /// How a render went.
 #[derive(Clone, Debug)]
 pub(crate) struct Finish {
-    pub(crate) done: Progress,
+    pub(crate) outcome: Outcome,
     pub(crate) load_seconds: f64,
     pub(crate) build_seconds: f64,
-    /// The render alone.
-    pub(crate) render_seconds: f64,
     pub(crate) write_seconds: f64,
-    pub(crate) interrupted: bool,
     pub(crate) non_finite: u64,
     pub(crate) saturated: u64,
+    /// Where a table was asked for.
+    pub(crate) stats: Option<Stats>,
 }
 
 /// A moment of a render.
 #[derive(Clone, Copy, Debug)]
 struct Moment {
     done: Progress,
-    total: u64,
+    total: Option<u64>,
+    /// What every pixel has got.
+    spp: u32,
+    error: Option<f64>,
     seconds: f64,
+    /// Towards whichever target comes first; `None` before anything is known.
+    seconds_left: Option<f64>,
 }
 
 impl Moment {
     fn mrays_per_second(&self) -> f64 {
-        self.done.rays as f64 / self.seconds.max(1e-9) * 1e-6
+        plain::millions_per_second(self.done.rays, self.seconds)
     }
-    fn fraction(&self) -> f64 {
-        self.done.samples as f64 / self.total.max(1) as f64
-    }
-    /// `None` before the first samples.
-    fn seconds_left(&self) -> Option<f64> {
-        let fraction = self.fraction();
-        (fraction > 0.0).then(|| self.seconds * (1.0 - fraction).max(0.0) / fraction)
+    /// Of the time that it will take.
+    fn fraction(&self) -> Option<f64> {
+        self.seconds_left.map(|left| self.seconds / (self.seconds + left).max(1e-9))
     }
 }
 
@@ -83,6 +103,8 @@ pub(crate) struct Reporter {
     /// The most heard of so far: calls may overtake each other.
     samples: AtomicU64,
     rays: AtomicU64,
+    /// After the last pass.
+    passed: Mutex<SoFar>,
 }
 
 impl Reporter {
@@ -90,7 +112,7 @@ impl Reporter {
     pub(crate) fn begin(flag: ProgressFlag, start: Start) -> Result<Self, Failure> {
         let terminal = std::io::stderr().is_terminal();
         let (style, interval) = match flag {
-            ProgressFlag::Auto if terminal => (Style::Bar(bar::Bar::new(start.total())), 0),
+            ProgressFlag::Auto if terminal => (Style::Bar(bar::Bar::new()), 0),
             ProgressFlag::Auto | ProgressFlag::Plain => (Style::Plain, 5000),
             ProgressFlag::Json => (Style::Json, 500),
             ProgressFlag::Off => (Style::Off, 0),
@@ -108,6 +130,7 @@ impl Reporter {
             due: AtomicU64::new(first),
             samples: AtomicU64::new(0),
             rays: AtomicU64::new(0),
+            passed: Mutex::default(),
         })
     }
 
@@ -124,7 +147,8 @@ impl Reporter {
             return;
         }
         let done = Progress { samples, rays };
-        let moment = Moment { done, total: self.start.total(), seconds: elapsed.as_secs_f64() };
+        let so_far = *self.passed.lock().unwrap_or_else(PoisonError::into_inner);
+        let moment = self.start.moment(done, &so_far, elapsed.as_secs_f64());
         match &self.style {
             Style::Bar(bar) => bar.show(&moment),
             Style::Plain => console::note(plain::moment(&moment)),
@@ -132,6 +156,11 @@ impl Reporter {
             Style::Json => drop(console::result(json::moment(&moment))),
             Style::Off => {}
         }
+    }
+
+    /// Every pixel has got some samples more.
+    pub(crate) fn passed(&self, so_far: &SoFar) {
+        *self.passed.lock().unwrap_or_else(PoisonError::into_inner) = *so_far;
     }
 
     /// The render is over: the bar goes away.
@@ -143,31 +172,54 @@ impl Reporter {
 
     /// All is written: the summary.
     pub(crate) fn finish(&self, finish: &Finish) -> Result<(), Failure> {
-        match self.style {
-            Style::Json => console::result(json::finish(&self.start, finish)),
-            Style::Bar(_) | Style::Plain => {
-                console::note(plain::finish(finish));
-                Ok(())
-            }
-            Style::Off => Ok(()),
+        if let Style::Json = self.style {
+            return console::result(json::finish(&self.start, finish));
         }
+        if !matches!(self.style, Style::Off) {
+            console::note(plain::finish(finish));
+        }
+        if let Some(stats) = &finish.stats {
+            stats.table(finish).iter().for_each(console::note);
+        }
+        Ok(())
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+    use lumbre::Ended;
 
     fn start() -> Start {
-        Start { device: "CPU".into(), threads: 2, size: [10, 10], spp: 4 }
+        Start { device: "CPU".into(), threads: 2, size: [10, 10], targets: Targets::spp(4) }
+    }
+
+    /// A render that is done.
+    pub(crate) fn finished() -> Finish {
+        let progress = Progress { samples: 400, rays: 900 };
+        Finish {
+            outcome: Outcome { ended: Ended::Spp, spp: 4, progress, seconds: 2.0, error: Some(0.125) },
+            load_seconds: 0.5,
+            build_seconds: 0.25,
+            write_seconds: 0.125,
+            non_finite: 0,
+            saturated: 0,
+            stats: None,
+        }
     }
 
     #[test]
-    fn time_left_follows_from_what_is_done() {
+    fn time_left_is_that_of_the_first_target() {
         let done = Progress { samples: 100, rays: 5_000_000 };
-        let m = Moment { done, total: 400, seconds: 2.0 };
-        assert_eq!((m.fraction(), m.seconds_left(), m.mrays_per_second()), (0.25, Some(6.0), 2.5));
-        assert_eq!(Moment { done: Progress::default(), ..m }.seconds_left(), None);
+        let so_far = SoFar { spp: 1, seconds: 1.5, ..SoFar::default() };
+        let m = start().moment(done, &so_far, 2.0);
+        assert_eq!((m.fraction(), m.seconds_left, m.mrays_per_second()), (Some(0.25), Some(6.0), 2.5));
+        let clean = SoFar { seconds_left: Some(3.5), ..so_far };
+        assert_eq!(start().moment(done, &clean, 2.0).seconds_left, Some(3.0));
+        let late = Start { targets: Targets::time(Duration::from_secs(3)), ..start() };
+        assert_eq!(late.moment(done, &so_far, 2.0).seconds_left, Some(1.0));
+        let none = Start { targets: Targets::default(), ..start() }.moment(done, &so_far, 2.0);
+        assert_eq!((none.seconds_left, none.fraction(), none.total), (None, None, None));
     }
 
     #[test]
@@ -180,26 +232,22 @@ mod tests {
 
     #[test]
     fn json_lines_are_objects_with_the_promised_keys() {
-        let finish = Finish {
-            done: Progress { samples: 400, rays: 900 },
-            load_seconds: 0.5,
-            build_seconds: 0.25,
-            render_seconds: 2.0,
-            write_seconds: 0.125,
-            interrupted: false,
-            non_finite: 0,
-            saturated: 0,
-        };
-        let line: serde_json::Value = serde_json::from_str(&json::finish(&start(), &finish)).unwrap();
-        assert_eq!(line["event"], "done");
-        for (key, value) in [("render_seconds", 2.0), ("load_seconds", 0.5), ("build_seconds", 0.25)] {
+        let parsed = |line: String| -> serde_json::Value { serde_json::from_str(&line).unwrap() };
+        let line = parsed(json::finish(&start(), &finished()));
+        assert_eq!((&line["event"], &line["ended_by"]), (&"done".into(), &"spp".into()));
+        for (key, value) in
+            [("render_seconds", 2.0), ("load_seconds", 0.5), ("build_seconds", 0.25), ("error", 0.125)]
+        {
             assert_eq!(line[key], value, "{key}");
         }
         for (key, value) in [("samples", 400), ("rays", 900), ("width", 10), ("height", 10), ("spp", 4)] {
             assert_eq!(line[key], value, "{key}");
         }
-        let none = Moment { done: Progress::default(), total: 400, seconds: 0.0 };
-        let line: serde_json::Value = serde_json::from_str(&json::moment(&none)).unwrap();
-        assert!(line["seconds_left"].is_null() && line["samples"] == 0);
+        assert!(line["stats"].is_null());
+        let line = parsed(json::moment(&start().moment(Progress::default(), &SoFar::default(), 0.0)));
+        assert!(line["seconds_left"].is_null() && line["error"].is_null() && line["samples"] == 0);
+        assert_eq!((&line["spp"], &line["total_samples"]), (&0.into(), &400.into()));
+        let line = parsed(json::start(&Start { targets: Targets::error(0.5), ..start() }));
+        assert!(line["spp"].is_null() && line["target_seconds"].is_null() && line["target_error"] == 0.5);
     }
 }

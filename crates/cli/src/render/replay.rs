@@ -1,6 +1,6 @@
 //! `--pixel x,y --sample n`: one camera sample again, step by step, on stdout.
 
-use super::Job;
+use super::job::Job;
 use crate::console;
 use crate::exit::{Code, Failure};
 use lumbre::core::film::FilmSample;

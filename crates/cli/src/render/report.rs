@@ -1,13 +1,37 @@
-//! What a finished film has to say: samples that were no numbers, and sums that ran out of range.
+//! What there is to say of a render: what it aims at, what ended it, samples that were no numbers, sums that ran out of range.
 
 use crate::console;
+use crate::progress::plain::{duration, error};
 use lumbre::core::Film;
+use lumbre::{Ended, Outcome, Targets};
 use std::env;
 use std::ffi::OsString;
 use std::path::Path;
 
 /// Most samples that are named.
 const NAMED: usize = 3;
+
+/// Says what was chosen for a user who chose nothing.
+pub(super) fn chosen(targets: &Targets) {
+    let error = targets.error.map(|e| format!("error {e}"));
+    let spp = targets.spp.map(|n| format!("{n} samples per pixel"));
+    let time = targets.time.map(|t| duration(t.as_secs_f64()));
+    let aims: Vec<String> = [error, spp, time].into_iter().flatten().collect();
+    console::note(format_args!("target: {}, whichever comes first", aims.join(", ")));
+}
+
+/// Says why it stopped, where that was not clear from the beginning, and how good the picture is.
+pub(super) fn ended(outcome: &Outcome, targets: &Targets) {
+    let why = match outcome.ended {
+        Ended::Cancelled => return,
+        Ended::Spp if targets.time.is_none() && targets.error.is_none() => "",
+        Ended::Spp => "all samples taken: ",
+        Ended::Time => "time is up: ",
+        Ended::Error => "good enough: ",
+    };
+    let error = error(outcome.error);
+    console::note(format_args!("{why}{} samples per pixel, estimated error {error}", outcome.spp));
+}
 
 /// Reports on a film; returns how many sums ran out of range.
 pub(super) fn film(film: &Film) -> u64 {

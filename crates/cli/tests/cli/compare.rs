@@ -23,7 +23,7 @@ fn hdr(dir: &Path, name: &str, pixels: Vec<Rgb>) -> String {
         ExrLayer::rgb("albedo", pixels.iter().map(|_| Rgb::splat(0.5)), false),
     ];
     let path = dir.join(name);
-    write_exr(&path, ExrImage { width: W, height: H, layers, metadata: vec![] }).unwrap();
+    write_exr(&path, ExrImage { width: W, height: H, layers, ..ExrImage::default() }).unwrap();
     path.display().to_string()
 }
 

@@ -105,7 +105,7 @@ fn a_scene_brings_its_sky_and_sun_and_flags_stand_above_them() {
     close(of(&format!("{DOWN} --sun 90,0,0")), sky);
     let env = dir.path().join("env.exr");
     let layers = vec![ExrLayer::rgb("", [Rgb::WHITE; 8].into_iter(), false)];
-    write_exr(&env, ExrImage { width: 4, height: 2, layers, metadata: vec![] }).unwrap();
+    write_exr(&env, ExrImage { width: 4, height: 2, layers, ..ExrImage::default() }).unwrap();
     close(of(&format!("{DOWN} --env {}", env.display())), 0.5);
 }
 
@@ -119,7 +119,7 @@ fn a_map_surrounds_the_scene_and_turns() {
         (0..16 * 8).map(|i| if red(i % 16) { Rgb::new(4.0, 0.0, 0.0) } else { Rgb::new(0.0, 0.0, 1.0) });
     let layers = vec![ExrLayer::rgb("", pixels, false)];
     let env = dir.path().join("env.exr");
-    write_exr(&env, ExrImage { width: 16, height: 8, layers, metadata: vec![] }).unwrap();
+    write_exr(&env, ExrImage { width: 16, height: 8, layers, ..ExrImage::default() }).unwrap();
     let of = |at: &str, more: &str| {
         let view = format!("--look-from 0,1,0 --look-at {at} --fov 10 --size 2x2 --spp 1");
         mean(&picture(dir.path(), &format!("{scene} {view} --env {} {more}", env.display())))

@@ -101,8 +101,8 @@ fn a_picture_that_cannot_be_written_is_refused_before_the_work() {
         .exits(74)
         .says(&format!("cannot write: there is no folder {missing}\n"))
         .does_not_say(".a.png.");
-    lumbre(&long).exits(2).says("the output is a .png or .exr");
-    lumbre(&format!("{long}/a.jpg")).exits(2).says("the output is a .png or .exr");
+    lumbre(&long).exits(2).says("an output is a .png, .jpg, .hdr or .exr");
+    lumbre(&format!("{long}/a.bmp")).exits(2).says("an output is a .png, .jpg, .hdr or .exr");
     std::fs::create_dir(dir.path().join("b.png")).unwrap();
     lumbre(&format!("{long}/b.png")).exits(74).says("it is a folder");
     let names: Vec<_> = std::fs::read_dir(dir.path()).unwrap().map(|e| e.unwrap().file_name()).collect();

@@ -22,7 +22,6 @@ fn help_and_version() {
 fn wrong_usage_is_2() {
     lumbre("draw").exits(2).says("draw");
     lumbre("render").exits(2).says("SCENE");
-    lumbre(&format!("render {SMOOTH}")).exits(2).says("--output");
     for (flag, value) in [
         ("--size", "0x5"),
         ("--size", "5"),

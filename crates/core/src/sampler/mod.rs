@@ -13,7 +13,7 @@
 //! | 1 | lens x, y; time; wavelength |
 //! | 2 + 3k | direction from vertex k, x, y; point on the light from vertex k + 1, x, y |
 //! | 3 + 3k | lobe; light; roulette; medium distance, at vertex k |
-//! | 4 + 3k | phase function at vertex k, x, y; two to spare |
+//! | 4 + 3k | phase function at vertex k, x, y; point on a light of the second group, x, y |
 
 pub mod sobol;
 
@@ -84,6 +84,18 @@ impl Sampler {
     #[inline(always)]
     pub fn light_point(&self, k: u32) -> [f32; 2] {
         self.set(if k == 0 { 0 } else { CAMERA_SETS + VERTEX_SETS * (k - 1) }).pair(2)
+    }
+
+    /// Point on a light of the second group as seen from vertex `k`, where both groups have lights.
+    #[inline]
+    pub fn second_light_point(&self, k: u32) -> [f32; 2] {
+        self.set(CAMERA_SETS + VERTEX_SETS * k + 2).pair(2)
+    }
+
+    /// Whether light of a faint group is asked for at vertex `k`. Apart from the table, since it is rarely needed.
+    #[inline]
+    pub fn light_roulette(&self, k: u32) -> f32 {
+        to_unit(hash_combine(self.coverage_key() ^ 0x3c6e_f372, k))
     }
 
     /// Which lobe scatters at vertex `k`.

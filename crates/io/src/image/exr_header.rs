@@ -1,18 +1,17 @@
 //! Puts the attributes of an EXR header in order of their names. The `exr` crate keeps custom ones in a hash map, so that
 //! two runs would write the same picture as different bytes; OpenEXR allows any order.
 
-use std::fs::File;
 use std::io::{Read, Seek, Write};
 
 /// Magic number and version.
 const START: usize = 8;
 
 /// Sorts the header of the one-part file, which stands at its beginning.
-pub(super) fn sort_attributes(file: &mut File) -> Result<(), String> {
+pub(super) fn sort_attributes(file: &mut (impl Read + Write + Seek)) -> Result<(), String> {
     let mut bytes = Vec::new();
     let mut want = 4096u64;
     loop {
-        file.take(want).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
+        (&mut *file).take(want).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
         if let Some(sorted) = sorted(&bytes) {
             file.seek(std::io::SeekFrom::Start(START as u64)).map_err(|e| e.to_string())?;
             return file.write_all(&sorted).map_err(|e| e.to_string());

@@ -3,10 +3,12 @@
 pub(crate) mod exr;
 mod exr_dwa;
 mod exr_header;
+pub(crate) mod exr_read;
 mod hdr;
 mod ktx2;
 pub(crate) mod ldr;
 pub(crate) mod png;
+pub(crate) mod save;
 
 use crate::warnings::Warnings;
 use crate::{IoError, Limits, files};
@@ -54,8 +56,8 @@ pub fn read_picture(
 ) -> Result<(LinearImage, Range), IoError> {
     let path = path.as_ref();
     let bytes = files::read_file(path, limits.max_file_bytes)?;
-    if exr::is_exr(&bytes) {
-        return Ok((exr::linear(path, exr::decode(path, &bytes, limits)?, layer)?, Range::Scene));
+    if exr_read::is_exr(&bytes) {
+        return Ok((exr_read::linear(path, exr_read::decode(path, &bytes, limits)?, layer)?, Range::Scene));
     }
     if let Some(layer) = layer {
         return Err(IoError::data(path, "", format!("only EXR files have layers; there is no {layer:?}")));

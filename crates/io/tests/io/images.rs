@@ -3,8 +3,8 @@
 use lumbre_core::Rgb;
 use lumbre_core::color::srgb_decode;
 use lumbre_io::{
-    ErrorKind, ExrImage, ExrLayer, Limits, read_environment, read_exr, read_linear_image, write_exr,
-    write_png,
+    ErrorKind, ExrImage, ExrLayer, ExrWindow, Limits, read_environment, read_exr, read_linear_image,
+    write_exr, write_png,
 };
 use std::fs;
 use std::path::Path;
@@ -24,9 +24,12 @@ fn exr(width: u32, height: u32) -> ExrImage {
     let alpha = vec![1.0; p.len()];
     let mut beauty = ExrLayer::rgb("", p.iter().copied(), false);
     beauty.channels.push(("A".into(), alpha));
+    let count = |i: u32| u32::MAX - 3 * i;
     ExrImage {
         width,
         height,
+        window: Some(ExrWindow { picture: [width + 5, height + 9], origin: [5, 2] }),
+        whole: vec![("counts.S".into(), (0..width * height).map(count).collect())],
         layers: vec![
             beauty,
             ExrLayer::rgb("albedo", p.iter().map(|c| *c * 0.5), false),
@@ -70,9 +73,12 @@ fn exr_layers_are_read_by_name() {
     assert_eq!(read(Some("albedo")), want.iter().map(|c| *c * 0.5).collect::<Vec<_>>());
     assert_eq!(read(Some("normal")), want.iter().map(|c| *c * -1.0).collect::<Vec<_>>());
     assert_eq!(read(Some("depth")), want.iter().map(|c| Rgb::splat(c.g + 0.5)).collect::<Vec<_>>());
+    let whole: Vec<Rgb> = (0..20).map(|i| Rgb::splat((u32::MAX - 3 * i) as f32)).collect();
+    assert_eq!(read(Some("counts")), whole, "whole numbers too");
     let e = read_linear_image(&path, Some("nothing"), &limits()).unwrap_err();
     assert_eq!(e.kind(), ErrorKind::BadData);
-    let want = r#"has no layer "nothing" with colours; its layers are "", "albedo", "depth", "normal""#;
+    let want =
+        r#"has no layer "nothing" with colours; its layers are "", "albedo", "counts", "depth", "normal""#;
     assert!(e.to_string().ends_with(want), "{e}");
 }
 
@@ -89,10 +95,19 @@ fn exr_header_says_what_other_programs_look_for() {
     assert_eq!(header.compression, exr::prelude::Compression::ZIP16);
     let names: Vec<_> = header.channels.list.iter().map(|c| c.name.to_string()).collect();
     let want = [
-        "A", "B", "G", "R", "albedo.B", "albedo.G", "albedo.R", "depth.Z", "normal.X", "normal.Y", "normal.Z",
+        "A", "B", "G", "R", "albedo.B", "albedo.G", "albedo.R", "counts.S", "depth.Z", "normal.X",
+        "normal.Y", "normal.Z",
     ];
     assert_eq!(names, want);
-    assert!(header.channels.list.iter().all(|c| c.sample_type == exr::prelude::SampleType::F32));
+    for channel in &header.channels.list {
+        use exr::prelude::SampleType::{F32, U32};
+        let whole = channel.name == *"counts.S";
+        assert_eq!(channel.sample_type, if whole { U32 } else { F32 });
+    }
+    let data = header.own_attributes.layer_position;
+    let display = header.shared_attributes.display_window;
+    assert_eq!((data.0, data.1, header.layer_size.0, header.layer_size.1), (5, 2, 5, 4));
+    assert_eq!((display.position.0, display.position.1, display.size.0, display.size.1), (0, 0, 10, 13));
     assert_eq!(header.own_attributes.software_name.as_ref().unwrap().to_string(), "Lumbre");
     let red = header.shared_attributes.chromaticities.unwrap().red;
     assert_eq!((red.0, red.1), (0.64, 0.33));
@@ -127,7 +142,7 @@ fn exr_that_cannot_be_written_is_refused() {
         width: 2,
         height: 2,
         layers: vec![ExrLayer { name: name.into(), channels: vec![(channel.into(), vec![0.0; n])] }],
-        metadata: Vec::new(),
+        ..ExrImage::default()
     };
     refused(layer("", "R", 3), "channel \"R\" has 3 values for 2 x 2 pixels");
     refused(layer("", "", 4), "cannot name a channel");
@@ -269,7 +284,7 @@ fn environments_are_made_sound() {
     let bad = [f32::NAN, f32::INFINITY, -1.0, 2.0];
     let p: Vec<Rgb> = (0..8).map(|i| Rgb::new(1.0, *bad.get(i).unwrap_or(&0.5), 3.0)).collect();
     let layers = vec![ExrLayer::rgb("", p.iter().copied(), false)];
-    write_exr(&path, ExrImage { width: 4, height: 2, layers, metadata: vec![] }).unwrap();
+    write_exr(&path, ExrImage { width: 4, height: 2, layers, ..ExrImage::default() }).unwrap();
     let env = read_environment(&path, &limits()).unwrap();
     let green: Vec<f32> = env.map.pixels.iter().map(|p| p.g).collect();
     assert_eq!(green, [0.0, 0.0, 0.0, 2.0, 0.5, 0.5, 0.5, 0.5]);

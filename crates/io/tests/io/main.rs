@@ -15,4 +15,5 @@ mod obj_geometry;
 mod obj_materials;
 mod obj_paths;
 mod ply_and_stl;
+mod save;
 mod scenes;

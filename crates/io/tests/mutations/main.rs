@@ -382,7 +382,8 @@ fn exr() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.exr");
     let layers = vec![ExrLayer::rgb("", picture(24).into_iter(), false)];
-    let image = ExrImage { width: 24, height: 24, layers, metadata: vec![("seed".into(), "7".into())] };
+    let metadata = vec![("seed".into(), "7".into())];
+    let image = ExrImage { width: 24, height: 24, layers, metadata, ..ExrImage::default() };
     write_exr(&path, image).unwrap();
     survive("a.exr", &std::fs::read(&path).unwrap(), |path| read_exr(path, &limits()));
 }

@@ -1,5 +1,7 @@
 //! Cameras as an author writes them; the node that holds one places it.
 
+use glam::{Mat4, Vec3};
+
 /// How the camera projects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
@@ -41,5 +43,16 @@ impl Camera {
             lens_radius: 0.0,
             focus_distance: 1.0,
         }
+    }
+
+    /// The transform of a node whose camera stands at `eye` and looks at `target`, +y up in the picture.
+    pub fn looking(eye: Vec3, target: Vec3) -> Mat4 {
+        let camera = lumbre_core::Camera::look_at(eye, target, Vec3::Y, 1.0, 1.0);
+        Mat4::from_cols(
+            camera.right.extend(0.0),
+            camera.up.extend(0.0),
+            -camera.forward.extend(0.0),
+            eye.extend(1.0),
+        )
     }
 }

@@ -30,12 +30,19 @@ pub(super) fn compile(
     for (instance, to_world) in transforms.iter().enumerate() {
         add_triangles(instance, *to_world, out, &mut powers)?;
     }
-    for &(light, to_world) in placed {
+    let is_directional = |id: crate::LightId| scene.lights[id.index()].kind == LightKind::Directional;
+    let (far, near): (Vec<_>, Vec<_>) = placed.iter().partition(|(light, _)| is_directional(*light));
+    for (light, to_world) in near {
+        add_punctual(scene, light, to_world, out, &mut powers, notes);
+    }
+    let near = powers.len();
+    for (light, to_world) in far {
         add_punctual(scene, light, to_world, out, &mut powers, notes);
     }
     add_sun(scene, out, &mut powers);
     add_environment(scene, out, &mut powers)?;
-    write_cdf(&weights(&out.lights, &powers), &mut out.light_cdf);
+    write_cdf(&weights(&powers[..near]), &mut out.near_light_cdf);
+    write_cdf(&weights(&powers[near..]), &mut out.far_light_cdf);
     Ok(())
 }
 
@@ -64,27 +71,18 @@ fn check_count(punctual: usize, out: &CompiledScene) -> Result<(), CompileError>
     Ok(())
 }
 
-/// Share of the choice that goes by power. The rest is split evenly, half among the lights at a distance and half among those
-/// that are not: power says nothing of how much arrives, and a lamp must not vanish beside a sun that does not shine in.
+/// Share of the choice within a group that goes by power. The rest is split evenly: power says nothing of how much arrives.
 const BY_POWER: f64 = 0.8;
 
-/// Weights of the choice among lights.
-fn weights(lights: &[LightRecord], powers: &[f32]) -> Vec<f32> {
+/// Weights of the choice among the lights of a group.
+fn weights(powers: &[f32]) -> Vec<f32> {
     // A light whose power overflows or is not a number still gets its turn.
     let powers =
         powers.iter().map(|p| if p.is_finite() { f64::from(p.max(0.0)) } else { f64::from(f32::MAX) });
     let powers: Vec<f64> = powers.collect();
     let total: f64 = powers.iter().sum();
-    let is_far = |l: &LightRecord| matches!(l.kind, kind::DIRECTIONAL | kind::SUN | kind::ENVIRONMENT);
-    let far = lights.iter().filter(|l| is_far(l)).count();
-    let groups = if far == 0 || far == lights.len() { 1.0 } else { 2.0 };
-    let even = |l: &LightRecord| {
-        let members = if is_far(l) { far } else { lights.len() - far };
-        (1.0 - BY_POWER) / (groups * members as f64)
-    };
-    let weight =
-        |(l, p): (&LightRecord, &f64)| (BY_POWER * p / total.max(f64::MIN_POSITIVE) + even(l)) as f32;
-    lights.iter().zip(&powers).map(weight).collect()
+    let even = (1.0 - BY_POWER) / powers.len() as f64;
+    powers.iter().map(|p| (BY_POWER * p / total.max(f64::MIN_POSITIVE) + even) as f32).collect()
 }
 
 fn push(out: &mut CompiledScene, powers: &mut Vec<f32>, kind: u32, index: usize, power: Rgb) -> u32 {
@@ -284,12 +282,10 @@ mod tests {
 
     #[test]
     fn no_light_vanishes_beside_a_strong_one() {
-        let light = |kind| LightRecord { kind, index: 0 };
-        let lights = [light(kind::POINT), light(kind::POINT), light(kind::SUN)];
-        let w = weights(&lights, &[1.0, 3.0, 1e20]);
+        let w = weights(&[1.0, 3.0, 1e20]);
         assert!(w[0] >= 0.05 && w[1] >= w[0] && w[2] >= 0.8, "{w:?}");
         assert!(w.iter().sum::<f32>() > 0.999);
-        let dark = weights(&lights[..2], &[0.0, f32::NAN]);
+        let dark = weights(&[0.0, f32::NAN]);
         assert!(dark.iter().all(|w| *w >= 0.1 && w.is_finite()), "{dark:?}");
     }
 }

@@ -19,6 +19,16 @@ pub mod kind {
     pub const ENVIRONMENT: u32 = 5;
 }
 
+/// Lights are sampled in two groups, one light of each at a vertex: what comes from afar says nothing of what lamps give, nor
+/// how much of either a wall keeps away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightGroup {
+    /// Emissive triangles, point and spot lights.
+    Near,
+    /// Directional lights, sun, environment.
+    Far,
+}
+
 /// One light of the light sampler.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]

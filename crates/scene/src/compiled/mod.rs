@@ -5,8 +5,9 @@ pub mod lights;
 pub mod material;
 pub mod texture;
 
+use bytemuck::{bytes_of, cast_slice};
 use geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex};
-use lights::{EnvironmentRecord, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord};
+use lights::{EnvironmentRecord, LightGroup, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord};
 use lumbre_core::Rgb;
 use lumbre_core::light::environment::EnvironmentLight;
 use material::{LobesRecord, MaterialRecord};
@@ -45,10 +46,12 @@ pub struct CompiledScene {
     pub textures: Vec<TextureRecord>,
     /// RGBA8 texels, red in the low byte.
     pub texels: Vec<u32>,
-    /// Every light, in the order of `light_cdf`.
+    /// Every light: those of the scene's space, then those from far away.
     pub lights: Vec<LightRecord>,
-    /// Cumulative probability of choosing each light: `lights.len() + 1` values.
-    pub light_cdf: Vec<f32>,
+    /// Cumulative probabilities of choosing each light of [`LightGroup::Near`]: one value more than there are.
+    pub near_light_cdf: Vec<f32>,
+    /// The same for [`LightGroup::Far`].
+    pub far_light_cdf: Vec<f32>,
     /// Emissive triangles in world space.
     pub triangle_lights: Vec<TriangleLightRecord>,
     /// Point, spot and directional lights.
@@ -81,14 +84,35 @@ impl CompiledScene {
         }
     }
 
-    /// Probability that the light sampler picks this light.
+    /// Index of the first light of a group, and the table that chooses among the group.
     #[inline]
-    pub fn prob_light(&self, light: u32) -> f32 {
-        self.light_cdf[light as usize + 1] - self.light_cdf[light as usize]
+    pub fn light_group(&self, group: LightGroup) -> (usize, &[f32]) {
+        match group {
+            LightGroup::Near => (0, &self.near_light_cdf),
+            LightGroup::Far => (self.near_light_cdf.len().saturating_sub(1), &self.far_light_cdf),
+        }
     }
 
-    /// Memory that the arrays hold, bytes.
-    pub fn bytes(&self) -> u64 {
+    /// Whether a group has lights.
+    #[inline]
+    pub fn has_lights(&self, group: LightGroup) -> bool {
+        self.light_group(group).1.len() > 1
+    }
+
+    /// Probability that the light sampler picks this light among those of its group.
+    #[inline]
+    pub fn prob_light(&self, light: u32) -> f32 {
+        let light = light as usize;
+        let (first_far, _) = self.light_group(LightGroup::Far);
+        let (cdf, at) = match light.checked_sub(first_far) {
+            None => (&self.near_light_cdf, light),
+            Some(at) => (&self.far_light_cdf, at),
+        };
+        cdf[at + 1] - cdf[at]
+    }
+
+    /// All that a scene is, field by field: names, and values as bytes.
+    pub fn sections(&self) -> Vec<(&'static str, &[u8])> {
         // All fields by name, so that none is forgotten.
         let CompiledScene {
             positions,
@@ -105,39 +129,48 @@ impl CompiledScene {
             textures,
             texels,
             lights,
-            light_cdf,
+            near_light_cdf,
+            far_light_cdf,
             triangle_lights,
             punctual_lights,
-            sun: _,
-            environment: _,
+            sun,
+            environment,
             environment_pixels,
             environment_row_cdf,
             environment_cell_cdf,
-            bounds: _,
+            bounds,
         } = self;
-        let parts = [
-            size_of_val(&positions[..]),
-            size_of_val(&normals[..]),
-            size_of_val(&vertices[..]),
-            size_of_val(&triangles[..]),
-            size_of_val(&triangle_materials[..]),
-            size_of_val(&meshes[..]),
-            size_of_val(&emissive_ranks[..]),
-            size_of_val(&instances[..]),
-            size_of_val(&transforms[..]),
-            size_of_val(&materials[..]),
-            size_of_val(&lobes[..]),
-            size_of_val(&textures[..]),
-            size_of_val(&texels[..]),
-            size_of_val(&lights[..]),
-            size_of_val(&light_cdf[..]),
-            size_of_val(&triangle_lights[..]),
-            size_of_val(&punctual_lights[..]),
-            size_of_val(&environment_pixels[..]),
-            size_of_val(&environment_row_cdf[..]),
-            size_of_val(&environment_cell_cdf[..]),
-        ];
-        parts.into_iter().map(|n| n as u64).sum()
+        vec![
+            ("positions", cast_slice(positions)),
+            ("normals", cast_slice(normals)),
+            ("vertices", cast_slice(vertices)),
+            ("triangles", cast_slice(triangles)),
+            ("triangle_materials", cast_slice(triangle_materials)),
+            ("meshes", cast_slice(meshes)),
+            ("emissive_ranks", cast_slice(emissive_ranks)),
+            ("instances", cast_slice(instances)),
+            ("transforms", cast_slice(transforms)),
+            ("materials", cast_slice(materials)),
+            ("lobes", cast_slice(lobes)),
+            ("textures", cast_slice(textures)),
+            ("texels", cast_slice(texels)),
+            ("lights", cast_slice(lights)),
+            ("near_light_cdf", cast_slice(near_light_cdf)),
+            ("far_light_cdf", cast_slice(far_light_cdf)),
+            ("triangle_lights", cast_slice(triangle_lights)),
+            ("punctual_lights", cast_slice(punctual_lights)),
+            ("sun", bytes_of(sun)),
+            ("environment", bytes_of(environment)),
+            ("environment_pixels", cast_slice(environment_pixels)),
+            ("environment_row_cdf", cast_slice(environment_row_cdf)),
+            ("environment_cell_cdf", cast_slice(environment_cell_cdf)),
+            ("bounds", bytes_of(bounds)),
+        ]
+    }
+
+    /// Memory that it holds, bytes.
+    pub fn bytes(&self) -> u64 {
+        self.sections().iter().map(|(_, bytes)| bytes.len() as u64).sum()
     }
 
     /// Radius of the sphere around the bounding box, metres; 0 for an empty scene.

@@ -10,6 +10,7 @@ use lumbre_core::{Frame, Rgb};
 use lumbre_cpu::light_sampling::{
     LightSample, pdf_environment, pdf_sun, pdf_triangle, sample_light, triangle,
 };
+use lumbre_scene::compiled::lights::LightGroup;
 use lumbre_scene::{
     Background, CompiledScene, Environment, EnvironmentMap, Light, LightId, LightKind, Material, Node, Scene,
     Sun, compile,
@@ -22,8 +23,8 @@ use std::f64::consts::PI;
 
 const DRAWS: usize = 1_000_000;
 const SIGNIFICANCE: f64 = 0.01;
-/// Tests that share it: 4 triangles, 3 suns, 4 environments, 2 of the whole sampler, 1 of the choice.
-const TESTS: usize = 14;
+/// Tests that share it: 4 triangles, 3 suns, 4 environments, 4 of the whole sampler, 1 of the choice.
+const TESTS: usize = 16;
 
 fn point(k: u32, stream: u32) -> [f32; 2] {
     [unit(k, 2 * stream), unit(k, 2 * stream + 1)]
@@ -281,14 +282,19 @@ fn lit_scene() -> CompiledScene {
     compile(&scene).expect("a test scene compiles").scene
 }
 
-fn draw_light(scene: &CompiledScene, p: Vec3, k: u32, stream: u32) -> Option<LightSample> {
-    sample_light(scene, p, point(k, stream), || unit(k, 900 + stream))
+fn draw_light(scene: &CompiledScene, group: LightGroup, p: Vec3, k: u32, stream: u32) -> Option<LightSample> {
+    sample_light(scene, group, p, point(k, stream), || unit(k, 900 + stream))
 }
 
-/// Density of all lights together in a direction; `wrong` scales that of one light.
-fn pdf_all(scene: &CompiledScene, p: Vec3, w: Vec3, wrong: impl Fn(u32) -> f32) -> f32 {
-    let mut sum = wrong(scene.sun.light) * pdf_sun(scene, w)
-        + wrong(scene.environment.light) * pdf_environment(scene, w);
+const GROUPS: [LightGroup; 2] = [LightGroup::Near, LightGroup::Far];
+
+/// Density of all lights of a group together in a direction; `wrong` scales that of one light.
+fn pdf_all(scene: &CompiledScene, group: LightGroup, p: Vec3, w: Vec3, wrong: impl Fn(u32) -> f32) -> f32 {
+    if group == LightGroup::Far {
+        return wrong(scene.sun.light) * pdf_sun(scene, w)
+            + wrong(scene.environment.light) * pdf_environment(scene, w);
+    }
+    let mut sum = 0.0;
     for (i, record) in scene.triangle_lights.iter().enumerate() {
         let t = triangle(record);
         if let Some(d2) = crossing(&t, p, w).filter(|_| record.side * t.scaled_normal().dot(w) < 0.0) {
@@ -298,10 +304,16 @@ fn pdf_all(scene: &CompiledScene, p: Vec3, w: Vec3, wrong: impl Fn(u32) -> f32) 
     sum
 }
 
-fn whole_test(scene: &CompiledScene, p: Vec3, stream: u32, wrong: impl Fn(u32) -> f32) -> ChiSquare {
+fn whole_test(
+    scene: &CompiledScene,
+    group: LightGroup,
+    p: Vec3,
+    stream: u32,
+    wrong: impl Fn(u32) -> f32,
+) -> ChiSquare {
     let grid = Grid::broad().with_edges();
-    let draw = |k: u32| draw_light(scene, p, k, stream).map(|s| s.wi);
-    chi_square::test(&grid, DRAWS, draw, |w| pdf_all(scene, p, w, &wrong))
+    let draw = |k: u32| draw_light(scene, group, p, k, stream).map(|s| s.wi);
+    chi_square::test(&grid, DRAWS, draw, |w| pdf_all(scene, group, p, w, &wrong))
 }
 
 /// The scene has what the test is about.
@@ -309,7 +321,7 @@ fn assert_is_rich(scene: &CompiledScene) {
     assert_eq!((scene.triangle_lights.len(), scene.lights.len()), (3, 5));
     for light in 0..5 {
         let prob = scene.prob_light(light);
-        assert!((0.03..0.6).contains(&prob), "light {light} is chosen with probability {prob}");
+        assert!((0.06..0.9).contains(&prob), "light {light} is chosen with probability {prob}");
     }
 }
 
@@ -318,9 +330,12 @@ fn all_lights_of_a_scene_together() {
     let scene = lit_scene();
     assert_is_rich(&scene);
     for (i, p) in [Vec3::new(0.1, 0.2, -0.1), Vec3::new(-2.0, -1.0, 1.0)].into_iter().enumerate() {
-        let r = whole_test(&scene, p, 60 + i as u32, |_| 1.0);
-        assert!(r.accept(SIGNIFICANCE, TESTS), "{p}: {r:?}");
-        assert!(r.accepted < 0.99, "the light that faces away is drawn and gives nothing: {r:?}");
+        for group in GROUPS {
+            let r = whole_test(&scene, group, p, 60 + i as u32, |_| 1.0);
+            assert!(r.accept(SIGNIFICANCE, TESTS), "{group:?} {p}: {r:?}");
+            let all = group == LightGroup::Far;
+            assert!((r.accepted == 1.0) == all, "the near light that faces away gives nothing: {r:?}");
+        }
     }
 }
 
@@ -332,7 +347,7 @@ fn samples_carry_the_density_they_are_weighed_with() {
     let mut seen = [0; 5];
     let mut off = 0;
     for k in 0..20_000 {
-        let Some(s) = draw_light(&scene, p, k, 70) else { continue };
+        let Some(s) = draw_light(&scene, GROUPS[k as usize % 2], p, k, 70) else { continue };
         seen[s.light as usize] += 1;
         let pdf = if s.light == scene.sun.light {
             pdf_sun(&scene, s.wi)
@@ -356,7 +371,8 @@ fn one_light_that_is_a_little_wrong_is_found() {
     let p = Vec3::new(0.1, 0.2, -0.1);
     for light in [0, 1, scene.sun.light, scene.environment.light] {
         let wrong = |l: u32| if l == light { 1.03 } else { 1.0 };
-        let r = whole_test(&scene, p, 60, wrong);
+        let group = GROUPS[usize::from(light >= scene.sun.light)];
+        let r = whole_test(&scene, group, p, 60, wrong);
         assert!(!r.accept(SIGNIFICANCE, TESTS), "light {light}, {}: {r:?}", scene.prob_light(light));
     }
 }
@@ -370,7 +386,6 @@ fn lights_are_chosen_by_power() {
         (LightKind::Point, 10.0),
         (LightKind::Point, 25.0),
         (LightKind::Spot { inner_angle: 0.4, outer_angle: 2.0 }, 40.0),
-        (LightKind::Directional, 12.0),
     ];
     for (i, (kind, intensity)) in kinds.into_iter().enumerate() {
         scene.lights.push(Light { name: String::new(), kind, intensity: grey(intensity) });
@@ -380,18 +395,18 @@ fn lights_are_chosen_by_power() {
     }
     let scene = compile(&scene).expect("a test scene compiles").scene;
     let p = Vec3::new(0.2, 1.0, 0.3);
-    let mut counts = vec![0u64; 5];
+    let mut counts = vec![0u64; 4];
     for k in 0..DRAWS as u32 {
-        let s = draw_light(&scene, p, k, 80);
-        counts[s.map_or(4, |s| s.light as usize)] += 1;
+        let s = draw_light(&scene, LightGroup::Near, p, k, 80);
+        counts[s.map_or(3, |s| s.light as usize)] += 1;
         assert!(s.is_none_or(|s| s.is_delta && s.pdf == scene.prob_light(s.light)));
     }
-    let shares: Vec<f64> = (0..4).map(|l| f64::from(scene.prob_light(l))).collect();
+    let shares: Vec<f64> = (0..3).map(|l| f64::from(scene.prob_light(l))).collect();
     let r = chi_square::compare(&counts, &shares, DRAWS);
     assert!(r.accept(SIGNIFICANCE, TESTS), "{counts:?} {shares:?} {r:?}");
-    // A tenth goes evenly to the lights that are not at a distance; the rest by power.
-    let by_power = |i: usize| shares[i] - 0.1 / 3.0;
+    // A fifth goes evenly to all; the rest by power.
+    let by_power = |i: usize| shares[i] - 0.2 / 3.0;
     assert!((by_power(1) / by_power(0) - 2.5).abs() < 1e-3, "{shares:?}");
-    let wrong = [shares[0] * 1.02, shares[1] - 0.02 * shares[0], shares[2], shares[3]];
+    let wrong = [shares[0] * 1.02, shares[1] - 0.02 * shares[0], shares[2]];
     assert!(!chi_square::compare(&counts, &wrong, DRAWS).accept(SIGNIFICANCE, TESTS));
 }

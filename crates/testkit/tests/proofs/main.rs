@@ -6,6 +6,7 @@ mod bits;
 mod catcher;
 mod convergence;
 mod dispersion;
+mod error_estimate;
 mod lens_and_filter;
 mod lights;
 mod references;

@@ -340,3 +340,27 @@ fn modes_differ_where_they_should() {
     let films: Vec<Film> = MODES.map(|m| film(&backend, camera, with_shadows(m), 24, 8)).into();
     assert!(films[0] == films[1] && films[1] != films[2]);
 }
+
+/// A lamp in a closed room gives the same light whether or not a sun outside, which would outshine it a thousand times, makes
+/// light sampling ask for the lamp now and then only.
+#[test]
+fn a_lamp_beside_a_sun_that_does_not_shine_in() {
+    let mut scene = Scene::default();
+    let walls = inside_out(cuboid(Vec3::splat(-2.0), Vec3::splat(2.0)));
+    add(&mut scene, walls, Material::diffuse(grey(0.5)));
+    add(
+        &mut scene,
+        rectangle(Vec3::Y * 1.9, Vec3::X * 0.3, Vec3::Z * 0.3),
+        Material::emitter(grey(4.0), false),
+    );
+    let camera = pinhole(Vec3::new(0.5, -0.5, 1.5), Vec3::new(0.0, -1.5, -0.5), 0.5);
+    let alone = mean(&prepare(&scene), camera, ON, 128);
+    scene.environment.sun = Some(Sun {
+        elevation: 0.9,
+        azimuth: 0.3,
+        irradiance: grey(4000.0),
+        angular_radius: Sun::ANGULAR_RADIUS,
+    });
+    let seeded = RenderSettings { seed: 9, ..ON };
+    assert_same_mean(alone, mean(&prepare(&scene), camera, seeded, 1024), "a lamp beside a sun");
+}
