@@ -2,7 +2,6 @@
 //! byte, on any machine; with `--check` it only compares and fails when one is stale.
 
 mod cornell;
-#[allow(dead_code, unused_imports, reason = "the scenes that use all of it are being written")]
 mod kit;
 mod lanterns;
 mod leaves;

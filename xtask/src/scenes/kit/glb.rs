@@ -1,6 +1,8 @@
 //! A glTF 2.0 document under construction, written as one binary `.glb` or as `.gltf` with the buffer in a data URI.
 
-use super::{Census, Mesh, Placement, Texture};
+#[cfg(test)]
+use super::Census;
+use super::{Mesh, Placement, Texture};
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -235,6 +237,7 @@ impl Document {
     }
 
     /// What the document holds, counted.
+    #[cfg(test)]
     pub(crate) fn census(&self) -> Census {
         Census::of(&self.json(None))
     }

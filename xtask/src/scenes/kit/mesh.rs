@@ -91,13 +91,6 @@ impl Mesh {
         self.placed(&Placement::at(by))
     }
 
-    /// The mesh inside out.
-    pub(crate) fn inverted(mut self) -> Mesh {
-        self.normals.iter_mut().for_each(|n| *n = -*n);
-        self.triangles.iter_mut().for_each(|t| t.swap(1, 2));
-        self
-    }
-
     /// The mesh without the triangles whose plane faces `direction` within 8°: a side that nobody sees.
     pub(crate) fn without_side(mut self, direction: DVec3) -> Mesh {
         let areas: Vec<DVec3> = self.triangles.iter().map(|t| self.area_vector(*t).normalize()).collect();
@@ -138,12 +131,6 @@ impl Mesh {
     /// The mesh with a colour for each vertex, found from its position.
     pub(crate) fn colored(mut self, color: impl Fn(DVec3) -> DVec3) -> Mesh {
         self.colors = self.positions.iter().map(|p| color(*p)).collect();
-        self
-    }
-
-    /// Texture coordinates times `factor`, then moved.
-    pub(crate) fn scaled_uvs(mut self, factor: DVec2, offset: DVec2) -> Mesh {
-        self.uvs.iter_mut().for_each(|uv| *uv = *uv * factor + offset);
         self
     }
 }
@@ -220,7 +207,7 @@ pub(crate) mod checks {
         mirrored.scale = DVec3::new(-1.0, 2.0, 0.5);
         let mesh = super::super::icosphere(2).placed(&mirrored);
         assert_oriented(&mesh);
-        assert!(volume(&mesh) > 0.0 && volume(&mesh.inverted()) < 0.0);
+        assert!(volume(&mesh) > 0.0);
     }
 
     #[test]

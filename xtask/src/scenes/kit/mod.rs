@@ -1,6 +1,7 @@
 //! What the generators of scenes are made from: meshes and shapes, pictures and noise, materials, and a writer of glTF. All
 //! arithmetic is `f64` with the transcendental functions of `libm`, so that every machine makes the same bytes.
 
+#[cfg(test)]
 mod census;
 mod glb;
 mod material;
@@ -13,6 +14,7 @@ mod shapes;
 mod solids;
 mod text;
 
+#[cfg(test)]
 pub(crate) use census::Census;
 pub(crate) use glb::{Document, Geometry};
 pub(crate) use material::{Material, Texture};
@@ -23,6 +25,6 @@ pub(crate) use noise::{Noise, hash01};
 pub(crate) use picture::{Grey, Picture, mix, smoothstep, srgb};
 pub(crate) use placement::Placement;
 pub(crate) use png::chunk as png_chunk;
-pub(crate) use shapes::{faceted, grid, icosphere, rectangle, revolve, rounded_box, trefoil};
+pub(crate) use shapes::{faceted, icosphere, rectangle, revolve, rounded_box, trefoil};
 pub(crate) use solids::{bevel_box, extrude, extrude_beveled, lathe, round_path, tube};
-pub(crate) use text::{Text, lettering};
+pub(crate) use text::lettering;

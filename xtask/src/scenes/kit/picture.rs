@@ -46,13 +46,6 @@ impl Grey {
         Grey { size, values: evaluate(size, at) }
     }
 
-    /// Value of the pixel that holds (u, v), which repeats.
-    pub(crate) fn get(&self, u: f64, v: f64) -> f64 {
-        let [w, h] = self.size;
-        let index = |t: f64, n: usize| ((t - t.floor()) * n as f64) as usize % n;
-        self.values[index(v, h) * w + index(u, w)]
-    }
-
     /// As a grey PNG of plain numbers, for roughness.
     pub(crate) fn png(&self) -> Vec<u8> {
         let bytes: Vec<u8> = self.values.iter().map(|x| byte(*x)).collect();

@@ -59,7 +59,7 @@ pub(crate) fn rounded_box(half: DVec3, radius: f64, steps: usize) -> Mesh {
 }
 
 /// Quads over a `columns` × `rows` grid of vertices that starts at `base`, column index fastest.
-pub(crate) fn grid(mesh: &mut Mesh, base: usize, columns: usize, rows: usize) {
+fn grid(mesh: &mut Mesh, base: usize, columns: usize, rows: usize) {
     let at = |x: usize, y: usize| (base + y * columns + x) as u32;
     for y in 0..rows - 1 {
         for x in 0..columns - 1 {

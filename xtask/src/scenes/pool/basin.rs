@@ -126,7 +126,7 @@ const KERB_STONES: [&str; 4] = ["kerb stone a", "kerb stone b", "kerb stone c", 
 
 /// A stone a metre long along x, its outer side towards +z, with chipped edges.
 fn kerb_stone(seed: u64) -> Mesh {
-    const STEPS: usize = 8;
+    const STEPS: usize = 7;
     let (nose, top, width) = (-KERB_NOSE, KERB_TOP, KERB_WIDTH);
     let profile = [
         (0.03, -0.12),

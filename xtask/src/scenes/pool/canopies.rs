@@ -1,7 +1,7 @@
 //! Corrugated blue canopies on posts, with blue benches beneath them.
 
 use super::{Pool, joinery};
-use crate::scenes::kit::{Material, Mesh, Noise, Picture, Placement, bevel_box, lathe, smoothstep, tube};
+use crate::scenes::kit::{Material, Mesh, Noise, Picture, Placement, bevel_box, smoothstep, tube};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -81,10 +81,6 @@ fn canopy_frame() -> Mesh {
             let foot = DVec3::new(x, 0.0, z);
             mesh.append(&tube(&[foot, foot + DVec3::Y * (height(z) - 0.16)], 0.042, 10));
             part(&mut mesh, [x - 0.1, -0.01, z - 0.1], [x + 0.1, 0.014, z + 0.1]);
-            let bolt = [(0.0, 0.0), (0.012, 0.0), (0.012, 0.012), (0.0, 0.014)].map(DVec2::from);
-            for (dx, dz) in [(-0.07, -0.07), (0.07, -0.07), (-0.07, 0.07), (0.07, 0.07)] {
-                mesh.append(&lathe(&bolt, 6, 20.0).moved(foot + DVec3::new(dx, 0.014, dz)));
-            }
         }
         // A rafter, leaning with the roof.
         let angle = libm::atan((FRONT - BACK) / DEPTH).to_degrees();

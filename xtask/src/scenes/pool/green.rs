@@ -60,7 +60,7 @@ pub(super) fn trees(pool: &mut Pool) {
     for (name, seed, height) in cypresses {
         let widest = height * 0.105;
         let shape = move |t: f64| widest * libm::pow(libm::sin(PI * (0.04 + 0.9 * libm::pow(t, 0.75))), 0.8);
-        let crown = crown(seed, 270, |t, _| (0.25 + (height - 0.3) * t, shape(t)), 0.74);
+        let crown = crown(seed, 290, |t, _| (0.25 + (height - 0.3) * t, shape(t)), 0.84);
         let places = tree_places(name);
         pool.document.scatter(name, &crown, leaves, &places);
         let trunk = tube(&[DVec3::ZERO, DVec3::Y * height * 0.6], 0.10, 8);
@@ -69,12 +69,12 @@ pub(super) fn trees(pool: &mut Pool) {
     for (name, seed, height) in pines {
         let crown = crown(
             seed,
-            350,
+            390,
             |t, r| {
                 let (s, c) = libm::sincos(PI * (t - 0.5));
                 (height * (0.82 + 0.16 * s) + 0.25 * r, height * 0.46 * c.max(0.1))
             },
-            1.25,
+            1.42,
         );
         let places = tree_places(name);
         pool.document.scatter(name, &crown, leaves, &places);

@@ -92,8 +92,8 @@ fn doors(pool: &mut Pool, places: &[Placement]) {
     for y in [[0.012, 0.20], [0.92, 1.04], [height - 0.12, height]] {
         door.append(&slab([-half + 0.11, half - 0.11], y, [back, front], 0.004));
     }
-    for i in 0..9 {
-        let y = 0.24 + 0.075 * f64::from(i);
+    for i in 0..7 {
+        let y = 0.25 + 0.095 * f64::from(i);
         let louvre = slab([-half + 0.11, half - 0.11], [-0.006, 0.006], [-0.03, 0.03], 0.002);
         door.append(&louvre.placed(&Placement::xyz(0.0, y, -0.095).turned(DVec3::X, 35.0)));
     }

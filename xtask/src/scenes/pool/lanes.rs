@@ -26,7 +26,7 @@ pub(super) fn ropes(pool: &mut Pool) {
     );
     let profile =
         [(0.0, -0.105), (0.052, -0.105), (0.066, -0.088), (0.066, 0.088), (0.052, 0.105), (0.0, 0.105)];
-    let float = lathe(&profile.map(DVec2::from), 7, 55.0)
+    let float = lathe(&profile.map(DVec2::from), 8, 50.0)
         .placed(&Placement::xyz(0.0, 0.0, 0.0).turned(DVec3::Z, 90.0));
     let mut places = [Vec::new(), Vec::new()];
     let mut lines = Mesh::default();
