@@ -16,7 +16,7 @@ const LONGEST_PASS: f64 = 1.0;
 /// Seconds by which the last pass may miss a time limit, if it is expected to end that close behind it.
 const LATE: f64 = 0.25;
 /// Fewer samples per pixel than this are not trusted to say that the picture is good.
-const LEAST_FOR_ERROR: u32 = 16;
+const LEAST_FOR_ERROR: u32 = 32;
 
 /// A [`Control`] that also sees the picture after each pass.
 pub trait Watch: Control {

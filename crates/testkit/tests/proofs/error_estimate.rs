@@ -3,7 +3,7 @@
 use lumbre_core::sampler::SamplerKind;
 use lumbre_testkit::calibration::{Plan, Row, SMOOTH, SUBJECTS, Subject, measure};
 
-/// What is promised from 16 samples per pixel on.
+/// What is promised from 32 samples per pixel on.
 const FACTOR: f64 = 1.3;
 /// Where it is promised: a picture with a larger error is mere noise, one with a smaller is perfect to the eye.
 const RANGE: std::ops::Range<f64> = 1e-4..0.5;
@@ -38,14 +38,14 @@ fn holds(subject: &Subject, plan: &Plan) {
 #[test]
 fn sobol_points_are_predicted() {
     for subject in &SUBJECTS {
-        holds(subject, &plan(SamplerKind::Sobol, &[16, 64, 256]));
+        holds(subject, &plan(SamplerKind::Sobol, &[32, 64, 256]));
     }
 }
 
 #[test]
 fn independent_samples_are_predicted() {
     for subject in &SUBJECTS {
-        holds(subject, &plan(SamplerKind::Independent, &[16, 64]));
+        holds(subject, &plan(SamplerKind::Independent, &[32, 64]));
     }
 }
 
