@@ -31,7 +31,7 @@ pub(crate) struct Document {
     buffer_views: Vec<Value>,
     variants: Vec<Value>,
     extensions: BTreeSet<String>,
-    /// `extras` of the scene: its sky and sun.
+    /// `extras` of the scene: its sky.
     extras: Value,
     bytes: Vec<u8>,
 }
@@ -224,14 +224,7 @@ impl Document {
         self.nodes.push(node);
     }
 
-    /// Gives the scene the sky and the sun that Lumbre reads from its `extras`: `sky` is `"gradient"` or a colour; the sun's
-    /// elevation and azimuth are in degrees, its strength in lux.
-    pub(crate) fn sky_and_sun(&mut self, sky: impl Into<Value>, [elevation, azimuth, strength]: [f64; 3]) {
-        let sun = json!({ "elevation": elevation, "azimuth": azimuth, "strength": strength });
-        self.extras = json!({ "lumbre": { "sky": sky.into(), "sun": sun } });
-    }
-
-    /// Gives the scene a sky without a sun: `"gradient"` or a linear colour.
+    /// Gives the scene the sky that Lumbre reads from its `extras`: `"gradient"` or a linear colour.
     pub(crate) fn sky(&mut self, sky: impl Into<Value>) {
         self.extras = json!({ "lumbre": { "sky": sky.into() } });
     }

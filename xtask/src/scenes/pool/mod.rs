@@ -15,8 +15,9 @@ mod props;
 mod surfaces;
 mod wet;
 
-use super::kit::{Document, Material, Texture};
+use super::kit::{Document, Material, Placement, Texture};
 use glam::DVec3;
+use serde_json::json;
 use std::collections::BTreeMap;
 
 /// Half the length and the width of the water, its height, and the depths of the floor at both ends.
@@ -26,6 +27,9 @@ const LANES: usize = 5;
 const LANE_WIDTH: f64 = 2.5;
 const WATER: f64 = -0.03;
 const DEPTH: [f64; 2] = [-1.35, -1.95];
+
+/// Elevation of the sun and its azimuth from -z towards +x, degrees; the illuminance of its brightest band, lux.
+const SUN: [f64; 3] = [25.0, 128.0, 23.5];
 
 /// The scene under construction.
 #[derive(Default)]
@@ -106,7 +110,14 @@ fn build() -> Pool {
 fn cameras(pool: &mut Pool) {
     let view = [DVec3::new(-21.2, 2.3, 9.2), DVec3::new(-2.5, 0.5, -2.2)];
     pool.document.camera("exterior", view, 35.0, 16.0 / 9.0);
-    pool.document.sky_and_sun("gradient", [25.0, 128.0, 22.0]);
+    pool.document.sky("gradient");
+    // A light without a disc: what flat water and chrome mirror of a disc are caustics that a path tracer finds once in millions of
+    // paths, each then a white dot.
+    let (sin_e, cos_e) = libm::sincos(SUN[0].to_radians());
+    let (sin_a, cos_a) = libm::sincos(SUN[1].to_radians());
+    let from = DVec3::new(cos_e * sin_a, sin_e, -cos_e * cos_a);
+    let sun = json!({ "type": "directional", "color": [1.0, 0.93, 0.82], "intensity": SUN[2] });
+    pool.document.light("sun", sun, &Placement::looking(from * 40.0, DVec3::ZERO));
 }
 
 #[cfg(test)]

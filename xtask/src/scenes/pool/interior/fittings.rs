@@ -4,25 +4,22 @@
 //! the wall, y up from the opening's lower edge, z into the room, the inner face of the wall at z = 0.
 
 use super::parts::block;
-use crate::scenes::kit::{Mesh, Placement, extrude, lathe, round_path, tube};
+use crate::scenes::kit::{Mesh, Placement, lathe, round_path, tube};
 use glam::{DVec2, DVec3};
-use std::f64::consts::PI;
 
 /// Length of the luminous cover, half its width, height of the body above it.
-pub(super) const LAMP: [f64; 3] = [1.50, 0.045, 0.050];
+pub(super) const LAMP: [f64; 3] = [2.40, 0.120, 0.060];
 /// How far below the ceiling the lamp hangs.
 pub(super) const LAMP_DROP: f64 = 0.30;
+/// How far the cover lies below the body.
+const COVER: f64 = 0.002;
 
-/// The body of the lamp, along x, its luminous cover beginning at y = 0: a tray as wide as the cover, so that neither lights the other
-/// (what is close to a lamp is bright, small and therefore noise), end caps, and the two rods that hold it.
+/// The body of the lamp, along x, its luminous cover just below y = 0, and the two rods that hold it. The cover is flat and as wide as
+/// the body, so that it lights nothing beside it: what is close to a lamp is bright, small and therefore noise.
 pub(super) fn lamp_body() -> Mesh {
     let [length, half, height] = LAMP;
     let end = length / 2.0;
-    let mut lamp = block([-end - 0.02, 0.0, -half], [end + 0.02, height, half], 0.004);
-    for x in [-end - 0.02, end] {
-        let cap = cover_outline(0.0015);
-        lamp.append(&extruded_cap(&cap, x, 0.02));
-    }
+    let mut lamp = block([-end, 0.0, -half], [end, height, half], 0.004);
     for x in [-end * 0.62, end * 0.62] {
         let top = LAMP_DROP;
         lamp.append(&tube(&[DVec3::new(x, height - 0.004, 0.0), DVec3::new(x, top, 0.0)], 0.006, 10));
@@ -32,38 +29,14 @@ pub(super) fn lamp_body() -> Mesh {
     lamp
 }
 
-/// The half circle of the cover in (z, y), `grow` wider, from +z below to -z.
-fn cover_outline(grow: f64) -> Vec<DVec2> {
-    const SIDES: u32 = 8;
-    (0..=SIDES)
-        .map(|i| {
-            let (s, c) = libm::sincos(PI * f64::from(i) / f64::from(SIDES));
-            DVec2::new(c, -s) * (LAMP[1] + grow)
-        })
-        .collect()
-}
-
-/// The prism over a cap's outline in (z, y), from `x` on.
-fn extruded_cap(outline: &[DVec2], x: f64, depth: f64) -> Mesh {
-    // Turned so that the outline's plane (x, y) becomes (z, y): counter-clockwise there is clockwise here.
-    let outline: Vec<DVec2> = outline.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
-    extrude(&outline, depth).placed(&Placement::xyz(x, 0.0, 0.0).turned_y(90.0))
-}
-
-/// The luminous cover: eight strips of a half cylinder that faces down.
+/// The luminous cover, facing down.
 pub(super) fn lamp_cover() -> Mesh {
-    let outline = cover_outline(0.0);
-    let end = LAMP[0] / 2.0;
+    let [end, half] = [LAMP[0] / 2.0, LAMP[1]];
     let mut mesh = Mesh::default();
-    for p in &outline {
-        for x in [-end, end] {
-            mesh.push(DVec3::new(x, p.y, p.x), DVec3::new(0.0, p.y, p.x));
-        }
+    for (x, z) in [(-end, half), (-end, -half), (end, -half), (end, half)] {
+        mesh.push(DVec3::new(x, -COVER, z), -DVec3::Y);
     }
-    for i in 0..outline.len() as u32 - 1 {
-        let at = 2 * i;
-        mesh.quad(at, at + 2, at + 3, at + 1);
-    }
+    mesh.quad(0, 1, 2, 3);
     mesh
 }
 

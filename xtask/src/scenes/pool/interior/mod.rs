@@ -115,7 +115,7 @@ fn lamp(room: &mut Room) {
     let y = ROOM.y - 0.0115;
     let z = DOOR[1][0] + 0.22;
     let path = [
-        DVec3::new(3.0 + 0.62 * 0.75, y, at.z),
+        DVec3::new(3.0 + 0.62 * 0.5 * fittings::LAMP[0], y, at.z),
         DVec3::new(3.465, y, z),
         DVec3::new(ROOM.x - 0.0115, y, z),
         DVec3::new(ROOM.x - 0.0115, 1.18, z),

@@ -175,7 +175,7 @@ impl Finish {
             Finish::Steel => ("brushed steel", Material::metal("brushed steel", [0.62, 0.61, 0.59], 0.38)),
             Finish::Light => {
                 let tube = Material::new("lamp cover", [0.0; 3], 1.0).specular(0.0);
-                ("lamp cover", tube.emissive([1.0, 0.95, 0.84], 190.0))
+                ("lamp cover", tube.emissive([1.0, 0.95, 0.84], 160.0))
             }
             Finish::Mat => paint("green mat", [0.035, 0.22, 0.075], 0.55),
             Finish::Rubber => paint("black rubber", [0.025, 0.025, 0.027], 0.6),
