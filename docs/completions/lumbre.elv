@@ -31,8 +31,8 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand help 'Print this message or the help of the given subcommand(s)'
         }
         &'lumbre;render'= {
-            cand -o 'File to write: .png, .jpg (8 bits a band, for display), .hdr (linear radiance) or .exr (linear, 32-bit floats, with layers); - is standard output, a PNG, or of another format as exr:-. May be given several times. [default: the scene''s name with .png, beside it or in this folder; never an existing file]'
-            cand --output 'File to write: .png, .jpg (8 bits a band, for display), .hdr (linear radiance) or .exr (linear, 32-bit floats, with layers); - is standard output, a PNG, or of another format as exr:-. May be given several times. [default: the scene''s name with .png, beside it or in this folder; never an existing file]'
+            cand -o 'File to write: .png, .jpg (8 bits a band, for display), .hdr (linear radiance) or .exr (linear, 32-bit floats, with layers); - is standard output, a PNG, or of another format as exr:-. May be given several times. [default: the scene''s name with .png, beside it or in this folder; never a file that is there already]'
+            cand --output 'File to write: .png, .jpg (8 bits a band, for display), .hdr (linear radiance) or .exr (linear, 32-bit floats, with layers); - is standard output, a PNG, or of another format as exr:-. May be given several times. [default: the scene''s name with .png, beside it or in this folder; never a file that is there already]'
             cand --size 'Columns and rows of the picture, up to 32768 each. [default: 720 rows in the shape that the camera was framed for, 1280x720 where the scene does not say]'
             cand --background 'What the camera sees behind the scene. What is left out still gives light'
             cand --first-sample 'Number of the first sample of each pixel. A render can be split: each part takes --spp samples from here, its .exr carries the exact sums, and `lumbre merge` adds them to the bits of one run'
@@ -43,7 +43,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand --quality 'Quality of a JPEG'
             cand --spp 'Samples per pixel. [default: 4096 if neither --time nor --target-error is given either]'
             cand --time 'Time for the whole command but the writing of the picture, such as 30s, 1.5min, 1h30min. [default: 10min if neither --spp nor --target-error is given either]'
-            cand --target-error 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. [default: 0.002 if neither --spp nor --time is given either]'
+            cand --target-error 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. 64 samples are taken at least. [default: 0.002 if neither --spp nor --time is given either]'
             cand --save-every 'Write the outputs again and again with what there is so far, this far apart'
             cand --max-depth 'Most scattering events on a path'
             cand --roulette 'First scattering event after which Russian roulette may end a path'

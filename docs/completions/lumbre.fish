@@ -33,7 +33,7 @@ complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "merge" -d 'Add parts 
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "man" -d 'Print the manual page, or write one for each command'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -s o -l output -d 'File to write: .png, .jpg (8 bits a band, for display), .hdr (linear radiance) or .exr (linear, 32-bit floats, with layers); - is standard output, a PNG, or of another format as exr:-. May be given several times. [default: the scene\'s name with .png, beside it or in this folder; never an existing file]' -r -F
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -s o -l output -d 'File to write: .png, .jpg (8 bits a band, for display), .hdr (linear radiance) or .exr (linear, 32-bit floats, with layers); - is standard output, a PNG, or of another format as exr:-. May be given several times. [default: the scene\'s name with .png, beside it or in this folder; never a file that is there already]' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l size -d 'Columns and rows of the picture, up to 32768 each. [default: 720 rows in the shape that the camera was framed for, 1280x720 where the scene does not say]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l background -d 'What the camera sees behind the scene. What is left out still gives light' -r -f -a "scene\t'Its sky or environment'
 transparent\t'Nothing: PNG and EXR get alpha, JPEG and HDR black'"
@@ -45,7 +45,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l aberration -d '
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l quality -d 'Quality of a JPEG' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l spp -d 'Samples per pixel. [default: 4096 if neither --time nor --target-error is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l time -d 'Time for the whole command but the writing of the picture, such as 30s, 1.5min, 1h30min. [default: 10min if neither --spp nor --target-error is given either]' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l target-error -d 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. [default: 0.002 if neither --spp nor --time is given either]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l target-error -d 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. 64 samples are taken at least. [default: 0.002 if neither --spp nor --time is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l save-every -d 'Write the outputs again and again with what there is so far, this far apart' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-depth -d 'Most scattering events on a path' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l roulette -d 'First scattering event after which Russian roulette may end a path' -r

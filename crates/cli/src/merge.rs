@@ -19,7 +19,8 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Code, Failure> {
     }
     let part = added(args, &outputs)?;
     let Part { fingerprint, samples, film, mut metadata } = part;
-    console::note(format_args!("merged {} parts: {}", args.parts.len(), Samples(&samples)));
+    let (n, s) = (args.parts.len(), if args.parts.len() == 1 { "" } else { "s" });
+    console::note(format_args!("merged {n} part{s}: {}", Samples(&samples)));
     if film.non_finite_count() > 0 {
         let count = film.non_finite_count();
         console::warning(format_args!("{count} samples were not finite and count as black"));

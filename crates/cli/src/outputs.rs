@@ -152,6 +152,11 @@ impl Outputs {
         self.targets.iter().any(|t| t.place == Place::Stdout)
     }
 
+    /// Whether one of them is a file.
+    pub(crate) fn has_file(&self) -> bool {
+        self.targets.iter().any(|t| t.place != Place::Stdout)
+    }
+
     /// Whether one of them can carry exact sums.
     pub(crate) fn has_exr(&self) -> bool {
         self.targets.iter().any(|t| t.format == Format::Exr)

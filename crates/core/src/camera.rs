@@ -111,7 +111,7 @@ impl Camera {
             return Ray::new(start, through.normalize(), time);
         }
         let offset = self.lens_point(lens);
-        Ray::new(start + offset, (through * self.focus_distance - offset).normalize(), time)
+        Ray::new(start + offset, (through - offset / self.focus_distance).normalize(), time)
     }
 
     /// Offset from the lens's centre, world space, uniform over its area.

@@ -393,8 +393,8 @@ impl<O: PathObserver> Path<'_, '_, O> {
         // Scattered rays do not find this light, or leave it out.
         let alone = light.is_delta || through_solid;
         let mis_weight = if alone { 1.0 } else { power_heuristic(light.pdf, pdf_bsdf) };
-        let contribution = self.beta * unshadowed * transmittance * (mis_weight / prob);
-        let contribution = self.clamped(contribution, self.depth + 1);
+        let contribution = self.beta * unshadowed * transmittance * mis_weight;
+        let contribution = self.clamped(contribution, self.depth + 1) * (1.0 / prob);
         self.radiance += contribution;
         self.observer.event(PathEvent::Light {
             light: light.light,

@@ -254,7 +254,8 @@ const FOCUS_SPOT: f32 = 1e-3;
 
 /// Distance along the direction of view of what lies at `at` in the picture (the unit square, y down), metres; `None` where
 /// nothing does. The median of a few rays; works on any backend.
-pub fn focus_distance(backend: &dyn Backend, camera: &Camera, at: [f32; 2]) -> Option<f32> {
+pub fn focus_distance(backend: &dyn Backend, view: &View, at: [f32; 2]) -> Option<f32> {
+    let camera = &view.camera;
     let towards = Camera { lens_radius: 0.0, ..*camera }.ray(at, [0.5; 2], 0.0);
     let spot = Camera {
         origin: towards.origin,
@@ -265,8 +266,7 @@ pub fn focus_distance(backend: &dyn Backend, camera: &Camera, at: [f32; 2]) -> O
         lens_radius: 0.0,
         ..*camera
     };
-    let settings =
-        RenderSettings { max_depth: Some(0), filter: FilterKind::Box, ..RenderSettings::default() };
+    let settings = RenderSettings { max_depth: Some(0), filter: FilterKind::Box, ..view.settings };
     let view = View { camera: spot, settings, frame: 0 };
     let distance = |index: u32| {
         let mut film = Film::new(1, 1);

@@ -30,12 +30,12 @@
 //!
 //! # Where it fails
 //!
-//! It is meant to be right within a factor of 1.3 from 32 samples and for errors between 1e-4 and 0.5, beyond which there is
+//! It is meant to be right within a factor of 1.3 from 64 samples and for errors between 1e-4 and 0.5, beyond which there is
 //! nothing to see or nothing but noise.
 //!
 //! - What has not been seen cannot be counted: a picture whose error is in fireflies that are still to come is worse than it
 //!   says, and jumps when they come. Scenes with caustics through glass are like that at any number of samples.
-//! - Below 32 samples it is a hint (at 16 within 1.5, below a factor of two and more). [`crate::render`] does not stop by error before.
+//! - Below 64 samples it is a hint (at 32 within 1.5, below a factor of two and more). [`crate::render`] does not stop by error before.
 //! - A picture that converges like m^-2 or faster, all smooth and lit directly, is mostly better than it says, by up to fifteen
 //!   times; errors are 1e-5 and less there.
 //! - Bias is not noise: a clamped or depth-limited picture approaches another truth.

@@ -1,7 +1,8 @@
 //! Lumbre, a physically based renderer, as a library: open a scene or build one, prepare it for a device, render samples into a
 //! film, read the film.
 //!
-//! It never prints, exits, installs a logger or panics on what it is given; its types are `Send` and `Sync`. It needs Rust 1.90.
+//! It never prints, exits, installs a logger or panics on what it is given, but where a function says
+//! so under "Panics"; its types are `Send` and `Sync`. It needs Rust 1.90.
 //!
 //! # A picture without any file
 //!

@@ -97,7 +97,7 @@ fn difference(found: &Option<[String; 3]>) -> String {
     let short = |text: &str| one_line(text).chars().take(80).collect::<String>();
     match found {
         Some([name, first, here]) => {
-            format!(": {} is {:?} there and {:?} here", name, short(first), short(here))
+            format!(": {} is {:?} there and {:?} here", short(name), short(first), short(here))
         }
         None => ": scene, camera or settings differ".into(),
     }

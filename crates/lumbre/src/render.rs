@@ -16,12 +16,19 @@ const LONGEST_PASS: f64 = 1.0;
 /// Seconds by which the last pass may miss a time limit, if it is expected to end that close behind it.
 const LATE: f64 = 0.25;
 /// Fewer samples per pixel than this are not trusted to say that the picture is good.
-const LEAST_FOR_ERROR: u32 = 32;
+const LEAST_FOR_ERROR: u32 = 64;
+/// The same for a picture whose samples are all alike.
+const LEAST_IN_THE_DARK: u32 = 1024;
 
 /// A [`Control`] that also sees the picture after each pass.
 pub trait Watch: Control {
     /// Every pixel has got `so_far.spp` samples. Called from the thread that renders, which waits.
     fn passed(&self, _film: &Film, _so_far: &SoFar) {}
+    /// True to end a cancelled render with the pass that it is in, which takes about a second or one sample of each pixel, so
+    /// that the film stays even; otherwise it ends within the pass.
+    fn ends_even(&self) -> bool {
+        false
+    }
 }
 
 impl Watch for () {}
@@ -50,8 +57,14 @@ pub fn render(
 ) -> Outcome {
     let targets = targets.into();
     let estimator = Estimator::new(film, &view.settings);
-    let mut run =
-        Run { targets, began: Instant::now(), per_sample: None, estimator, so_far: SoFar::default() };
+    let mut run = Run {
+        targets,
+        began: Instant::now(),
+        per_sample: None,
+        estimator,
+        looked_at: 0,
+        so_far: SoFar::default(),
+    };
     let ended = loop {
         if let Some(ended) = run.met() {
             break ended;
@@ -61,6 +74,9 @@ pub fn render(
         }
         watch.passed(film, &run.so_far);
     };
+    if ended != Ended::Cancelled {
+        run.look(film);
+    }
     let SoFar { spp, progress, error, .. } = run.so_far;
     Outcome { ended, spp, progress, error, seconds: run.began.elapsed().as_secs_f64() }
 }
@@ -72,6 +88,8 @@ struct Run {
     /// Seconds for one sample of each pixel, as of the last pass.
     per_sample: Option<f64>,
     estimator: Estimator,
+    /// Samples per pixel at the last look.
+    looked_at: u32,
     so_far: SoFar,
 }
 
@@ -80,7 +98,9 @@ impl Run {
     fn met(&self) -> Option<Ended> {
         let (spp, error) = (self.so_far.spp, self.so_far.error);
         let good = self.targets.error.zip(error).is_some_and(|(wanted, e)| e <= wanted);
-        if good && is_look(spp) && spp >= LEAST_FOR_ERROR {
+        // No spread at all is no light at all, or light that is yet to be found.
+        let least = if error == Some(0.0) { LEAST_IN_THE_DARK } else { LEAST_FOR_ERROR };
+        if good && is_look(spp) && spp >= least {
             return Some(Ended::Error);
         }
         if spp >= self.targets.most() {
@@ -119,11 +139,19 @@ impl Run {
         self.so_far.spp += length;
         let last = self.so_far.spp == self.targets.most() || self.room() == Some(0);
         if is_look(self.so_far.spp) || last {
-            self.so_far.error = self.estimator.look(film, self.so_far.spp);
+            self.look(film);
         }
         self.so_far.seconds = self.began.elapsed().as_secs_f64();
         self.so_far.seconds_left = self.seconds_left();
         true
+    }
+
+    /// Estimates the error of the film as it is now.
+    fn look(&mut self, film: &Film) {
+        if self.looked_at != self.so_far.spp {
+            self.looked_at = self.so_far.spp;
+            self.so_far.error = self.estimator.look(film, self.so_far.spp);
+        }
     }
 
     /// Until the first of the targets, at the speed of the last pass.
@@ -171,7 +199,7 @@ struct Earlier<'a> {
 
 impl Control for Earlier<'_> {
     fn cancelled(&self) -> bool {
-        self.watch.cancelled()
+        !self.watch.ends_even() && self.watch.cancelled()
     }
     fn progress(&self, so_far: Progress) {
         self.watch.progress(sum(self.done, so_far));

@@ -15,7 +15,7 @@ pub struct Targets {
     pub time: Option<Duration>,
     /// Estimated relMSE of the picture against the truth, as [`crate::Estimator`] tells it. It is asked after 1, 2, 4, 8, 16
     /// samples per pixel and then after each 16 more, never in between, so that the same picture ends at the same sample on
-    /// every machine.
+    /// every machine; below 64 samples (1024 where all samples are alike, as in a black picture) it does not end a render.
     pub error: Option<f64>,
     /// Index of the first sample of each pixel: parts of one picture begin where others end.
     pub first_sample: u32,
@@ -102,6 +102,6 @@ pub struct Outcome {
     pub progress: Progress,
     /// Seconds that it took.
     pub seconds: f64,
-    /// Estimated relMSE; `None` with fewer than two samples per pixel.
+    /// Estimated relMSE; `None` with fewer than two samples per pixel. Of a cancelled render, that of the last look.
     pub error: Option<f64>,
 }

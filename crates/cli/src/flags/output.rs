@@ -22,7 +22,7 @@ pub(crate) enum Background {
 pub(crate) struct OutputArgs {
     /// File to write: .png, .jpg (8 bits a band, for display), .hdr (linear radiance) or .exr (linear, 32-bit floats, with
     /// layers); - is standard output, a PNG, or of another format as exr:-. May be given several times.
-    /// [default: the scene's name with .png, beside it or in this folder; never an existing file]
+    /// [default: the scene's name with .png, beside it or in this folder; never a file that is there already]
     #[arg(short, long, value_name = "FILE", allow_hyphen_values = true)]
     pub(crate) output: Vec<PathBuf>,
 

@@ -47,6 +47,17 @@ pub(crate) fn positive(text: &str) -> Result<f32, String> {
     finite(text).and_then(|v| if v > 0.0 { Ok(v) } else { Err(format!("{text} is not above 0")) })
 }
 
+/// A number within bounds that make sense.
+fn between(text: &str, bounds: std::ops::RangeInclusive<f32>) -> Result<f32, String> {
+    let number = positive(text)?;
+    let (least, most) = (bounds.start(), bounds.end());
+    if bounds.contains(&number) {
+        Ok(number)
+    } else {
+        Err(format!("{text} is not within {least} and {most}"))
+    }
+}
+
 /// A finite number that is not negative.
 pub(crate) fn not_negative(text: &str) -> Result<f32, String> {
     finite(text).and_then(|v| if v >= 0.0 { Ok(v) } else { Err(format!("{text} is negative")) })
@@ -89,8 +100,8 @@ pub(crate) fn fov(text: &str) -> Result<f32, String> {
 /// `f/N` or a diameter in metres.
 pub(crate) fn aperture(text: &str) -> Result<Aperture, String> {
     match text.trim().strip_prefix(['f', 'F']).and_then(|t| t.strip_prefix('/')) {
-        Some(number) => positive(number).map(Aperture::FNumber),
-        None => positive(text)
+        Some(number) => between(number, 1e-3..=1e6).map(Aperture::FNumber),
+        None => between(text, 1e-6..=1e3)
             .map(Aperture::Diameter)
             .map_err(|e| format!("{e}; expected f/N, such as f/2.8, or the diameter of the lens in metres")),
     }
@@ -100,7 +111,9 @@ pub(crate) fn aperture(text: &str) -> Result<Aperture, String> {
 pub(crate) fn focus(text: &str) -> Result<Focus, String> {
     match text {
         "auto" => Ok(Focus::Auto),
-        _ => positive(text).map(Focus::Distance).map_err(|e| format!("{e}; expected `auto` or metres")),
+        _ => between(text, 1e-4..=1e9)
+            .map(Focus::Distance)
+            .map_err(|e| format!("{e}; expected `auto` or metres")),
     }
 }
 

@@ -110,7 +110,7 @@ impl Job<'_> {
         // The scope waits for a file that is still being written.
         thread::scope(|scope| {
             let saver = self.args.targets.save_every.map(|every| Saver::new(every, scope, &busy, &save));
-            let watch = Watching { watchers, saver };
+            let watch = Watching { watchers, saver, ends_even: self.args.output.keeps_sums() };
             lumbre::render(backend, &self.view, *targets, film, &watch)
         })
     }
@@ -155,6 +155,8 @@ struct Watchers<'a> {
 struct Watching<'a, S> {
     watchers: &'a Watchers<'a>,
     saver: Option<S>,
+    /// A part is worth nothing when its pixels differ in their samples.
+    ends_even: bool,
 }
 
 impl<S: super::saving::Save> Control for Watching<'_, S> {
@@ -172,5 +174,8 @@ impl<S: super::saving::Save> Watch for Watching<'_, S> {
         if let Some(saver) = &self.saver {
             saver.passed(film, so_far);
         }
+    }
+    fn ends_even(&self) -> bool {
+        self.ends_even
     }
 }

@@ -54,14 +54,14 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         if let Some(pixel) = args.replay.pixel {
             let backend = lumbre::prepare_cpu(compiled)?;
             say(&backend, "--pixel always runs there");
-            scene::focus(args, &backend, &mut job.view.camera);
+            scene::focus(args, &backend, &mut job.view);
             return replay::run(&job, &backend, pixel);
         }
         let start = Instant::now();
         let backend = lumbre::prepare(compiled, device)?;
         let build_seconds = start.elapsed().as_secs_f64();
         say(&*backend, why);
-        scene::focus(args, &*backend, &mut job.view.camera);
+        scene::focus(args, &*backend, &mut job.view);
         job.picture(&Prepared { backend: &*backend, load_seconds, build_seconds, scene_bytes }, &cancel)
     })
 }

@@ -23,6 +23,14 @@ pub(super) fn check(args: &RenderArgs) -> Result<Outputs, Failure> {
     if args.output.keep_sums && !outputs.has_exr() {
         return Err(Failure::usage("--keep-sums: exact sums go into an .exr, and no output is one"));
     }
+    if args.output.first_sample.is_some() && !outputs.has_exr() {
+        return Err(Failure::usage(
+            "--first-sample: parts are merged from .exr files, and no output is one (-o part.exr)",
+        ));
+    }
+    if args.targets.save_every.is_some() && !outputs.has_file() {
+        return Err(Failure::usage("--save-every: standard output takes the finished picture only"));
+    }
     Ok(outputs.with_alpha(args.output.background == Background::Transparent))
 }
 

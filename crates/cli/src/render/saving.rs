@@ -2,7 +2,7 @@
 //! render goes on meanwhile.
 
 use crate::console;
-use crate::exit::Failure;
+use crate::exit::{Code, Failure};
 use lumbre::SoFar;
 use lumbre::core::Film;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -52,7 +52,11 @@ where
         *due = Instant::now() + self.every;
         let (film, so_far, busy, write) = (film.clone(), *so_far, self.busy, self.write);
         self.scope.spawn(move || {
-            if let Err(e) = write(&film, &so_far) {
+            // One thread beside those of the render, which would serve it only once they are idle; outside of any pool it would
+            // take as many as there are processors.
+            let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+            let alone = alone.map_err(|e| Failure::new(Code::Memory, format!("cannot start a thread: {e}")));
+            if let Err(e) = alone.and_then(|pool| pool.install(|| write(&film, &so_far))) {
                 console::warning(format_args!("not saved on the way: {}", e.message));
             }
             busy.store(false, Ordering::Release);
@@ -63,7 +67,6 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exit::Code;
     use std::sync::atomic::AtomicU32;
 
     #[test]

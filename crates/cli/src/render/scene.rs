@@ -7,6 +7,7 @@ use crate::flags::render::RenderArgs;
 use crate::flags::values::{MAX_SIDE, Size, Sky};
 use lumbre::core::Camera;
 use lumbre::core::camera::Projection;
+use lumbre::core::settings::View;
 use lumbre::io::Limits;
 use lumbre::scene::{Background, CompiledScene, Environment, Scene, Sun};
 use lumbre::{Aperture, Backend, CameraOptions, Focus};
@@ -49,24 +50,24 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
 }
 
 /// Focuses an open lens on the centre of the picture, unless the flags say a distance.
-pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, camera: &mut Camera) {
+pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, view: &mut View) {
     if args.camera.aperture.is_none() {
         return;
     }
-    let orthographic = matches!(camera.projection, Projection::Orthographic { .. });
+    let orthographic = matches!(view.camera.projection, Projection::Orthographic { .. });
     if orthographic && matches!(args.camera.aperture, Some(Aperture::FNumber(_))) {
         console::warning("--aperture f/N means nothing to an orthographic camera: a diameter in metres does");
     }
     if args.camera.focus.is_some_and(|f| f != Focus::Auto) {
         return;
     }
-    match lumbre::focus_distance(backend, camera, [0.5, 0.5]) {
+    match lumbre::focus_distance(backend, view, [0.5, 0.5]) {
         Some(metres) => {
-            camera.focus_distance = metres;
+            view.camera.focus_distance = metres;
             console::note(format_args!("focus: {metres:.3} m, the centre of the picture"));
         }
         None => {
-            camera.focus_distance = FAR;
+            view.camera.focus_distance = FAR;
             console::note("focus: far away; nothing lies in the centre of the picture (--focus D)");
         }
     }

@@ -150,6 +150,9 @@ fn the_lens_flags_say_what_they_want() {
         ("--aperture f2", "f/N"),
         ("--aperture 0.1 --focus near", "auto"),
         ("--aperture 0.1 --focus -1", "not above 0"),
+        ("--aperture 1e38", "not within"),
+        ("--aperture f/1e-30", "not within"),
+        ("--aperture 0.1 --focus 1e20", "not within"),
     ] {
         lumbre(&format!("render {CORNELL} -o a.png {words}")).exits(2).says(says);
     }

@@ -62,6 +62,19 @@ fn the_first_interrupt_writes_what_there_is() {
     }
 }
 
+/// A part that is interrupted ends with even pixels: it can be merged as far as it got.
+#[test]
+fn an_interrupted_part_is_a_shorter_part() {
+    let dir = folder();
+    let d = dir.path().display();
+    let words = format!("{CORNELL} --size 64x48 --first-sample 3 --spp 1000000 --progress json -o {d}/a.exr");
+    let mut running = Running::start(&format!("render {words}"));
+    Running::until(&mut running.stdout, "\"progress\"");
+    running.signal("-INT");
+    running.end().exits(75).does_not_say("no exact sums");
+    lumbre(&format!("merge {d}/b.exr {d}/a.exr")).exits(0).says("merged 1 part: sample");
+}
+
 #[test]
 fn the_second_interrupt_ends_at_once() {
     let dir = folder();

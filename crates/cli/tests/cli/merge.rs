@@ -144,10 +144,15 @@ fn sums_need_an_exr() {
     lumbre(&format!("render {CORNELL} --keep-sums -o a.png"))
         .exits(2)
         .says("--keep-sums: exact sums go into an .exr, and no output is one");
-    // Without an EXR it is a picture of other samples, nothing more.
+    for output in ["", "-o a.png"] {
+        lumbre(&format!("render {CORNELL} --first-sample 7 {output}"))
+            .exits(2)
+            .says("merged from .exr files");
+    }
+    lumbre(&format!("render {CORNELL} --save-every 1s -o -")).exits(2).says("finished picture only");
     let dir = folder();
-    part(dir.path(), "a.png", "--spp 1 --first-sample 7");
-    lumbre(&format!("merge {0}/b.png {0}/a.png --keep-sums", dir.path().display()))
+    part(dir.path(), "a.exr", "--spp 1 --first-sample 7");
+    lumbre(&format!("merge {0}/b.png {0}/a.exr --keep-sums", dir.path().display()))
         .exits(2)
         .says("the output is none");
 }

@@ -203,8 +203,8 @@ fn radius(out: &CompiledScene) -> f32 {
 
 fn add_sun(scene: &Scene, out: &mut CompiledScene, powers: &mut Vec<f32>) {
     let Some(sun) = scene.environment.sun.filter(|s| s.irradiance.max_component() > 0.0) else { return };
-    let disc =
-        SunDisc::new(SunDisc::direction_of(sun.elevation, sun.azimuth), sun.angular_radius, sun.irradiance);
+    let direction = SunDisc::direction_of(sun.elevation, sun.azimuth);
+    let disc = SunDisc::new(direction, sun.angular_radius, sun.irradiance.min(BRIGHTEST_SUN));
     let light = push(out, powers, kind::SUN, 0, disc.power(radius(out)));
     out.sun = SunRecord {
         direction: disc.direction.to_array(),
@@ -213,6 +213,9 @@ fn add_sun(scene: &Scene, out: &mut CompiledScene, powers: &mut Vec<f32>) {
         light,
     };
 }
+
+/// Strongest irradiance of the sun, in each band: its radiance, some 15,000 times that, stays as finite as the brightest texel.
+const BRIGHTEST_SUN: f32 = 1e25;
 
 /// Brightest texel: sums of a whole map stay finite.
 const BRIGHTEST: f32 = 1e30;
