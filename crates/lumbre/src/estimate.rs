@@ -35,7 +35,7 @@
 //!
 //! - What has not been seen cannot be counted: a picture whose error is in fireflies that are still to come is worse than it
 //!   says, and jumps when they come. Scenes with caustics through glass are like that at any number of samples.
-//! - Below 64 samples it is a hint (at 32 within 1.5, below a factor of two and more). [`crate::render`] does not stop by error before.
+//! - Below 64 samples it is a hint (at 32 within 1.5, below a factor of two and more). [`crate::render()`] does not stop by error before.
 //! - A picture that converges like m^-2 or faster, all smooth and lit directly, is mostly better than it says, by up to fifteen
 //!   times; errors are 1e-5 and less there.
 //! - Bias is not noise: a clamped or depth-limited picture approaches another truth.

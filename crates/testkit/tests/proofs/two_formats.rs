@@ -59,7 +59,7 @@ fn a_wall_of_another_colour_is_noticed() {
     let (means, close) = difference(&of_obj(|scene| {
         one_sided(scene);
         let wall = material(scene, "back_wall");
-        wall.base_color = wall.base_color * 0.97;
+        wall.base_color *= 0.97;
     }));
     println!("means differ by {means:.5}, {:.2} % of the pixels agree", 100.0 * close);
     assert!(means > 0.001 && close < 0.9, "{means} {close}");
