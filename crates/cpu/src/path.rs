@@ -344,12 +344,11 @@ impl<O: PathObserver> Path<'_, '_, O> {
         let second = self.sampler.second_light_point(self.depth);
         let pair = [(LightGroup::Far, point), (LightGroup::Near, second)]
             .map(|from| self.candidate(it, surface, wo_local, from));
-        let [a, b] = pair.each_ref().map(|c| c.as_ref().map_or(0.0, |c| c.unshadowed.average()));
-        for (candidate, other) in pair.iter().zip([b, a]) {
-            let Some(candidate) = candidate else { continue };
-            let share = candidate.unshadowed.average() / (FAINT * (a + b));
+        let both: f32 = pair.iter().flatten().map(|c| c.unshadowed.average()).sum();
+        for candidate in pair.iter().flatten() {
+            let share = candidate.unshadowed.average() / (FAINT * both);
             // Both cannot be faint, so one number serves.
-            let prob = if share < 1.0 && other > 0.0 { share.max(LEAST_ASKED) } else { 1.0 };
+            let prob = if share < 1.0 { share.max(LEAST_ASKED) } else { 1.0 };
             if prob >= 1.0 || self.sampler.light_roulette(self.depth) < prob {
                 self.add_light(it, surface, candidate, prob);
             }
