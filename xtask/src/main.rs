@@ -21,6 +21,8 @@ test [ARGS]     cargo test
 lint            rules of this project: crate dependencies, unsafe, sizes, forbidden calls
 typos           spelling of .rs, .md and .toml files
 licences        licences of all dependencies
+shaders [--check]
+                compile crates/shaders/glsl to SPIR-V, or compare only (builds glslang: needs a C++ compiler)
 scenes [NAME...] [--check]
                 write assets/scenes anew, or compare only
 targets         whether the program compiles for Windows, macOS and 64-bit ARM
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
     let rest: Vec<String> = args.collect();
     let done = match (chore.as_str(), rest.is_empty()) {
         ("test", _) => command::cargo("test", &rest, &[]),
+        ("shaders", _) => command::cargo("run", &shader_args(&rest), &[]),
         ("scenes", _) => scenes::run(&rest),
         ("gallery", _) => gallery::run(&rest),
         ("check", true) => check::run(),
@@ -53,4 +56,13 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn shader_args(rest: &[String]) -> Vec<String> {
+    ["--quiet", "--locked", "--package", "xtask-shaders", "--"]
+        .map(str::to_owned)
+        .iter()
+        .chain(rest)
+        .cloned()
+        .collect()
 }

@@ -17,7 +17,7 @@ const LIBRARIES: &[&str] = &[
 /// The workspace crates that a crate may use, at run time and in build scripts; `None`: there is no such crate.
 fn may_use(krate: &str) -> Option<Vec<&'static str>> {
     Some(match krate {
-        "lumbre-core" | "xtask" => vec![],
+        "lumbre-core" | "xtask" | "xtask-shaders" => vec![],
         "lumbre-scene" | "lumbre-denoise" => vec!["lumbre-core"],
         "lumbre-io" | "lumbre-cpu" | "lumbre-shaders" => vec!["lumbre-core", "lumbre-scene"],
         "lumbre-vulkan" => vec!["lumbre-core", "lumbre-scene", "lumbre-shaders", "lumbre-denoise"],

@@ -1,0 +1,1 @@
+//! The Vulkan backend of Lumbre: device, memory, acceleration structures, ray tracing pipelines.
