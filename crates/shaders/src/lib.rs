@@ -3,3 +3,5 @@
 //!
 //! A shader twin has the file name, the function names, the order of steps and the constants of the Rust file that it repeats.
 #![forbid(unsafe_code)]
+
+pub mod layout;
