@@ -128,7 +128,7 @@ pub fn data_file() -> String {
         ("DEFICIT", "1 - E by width and warped cosine.", &tables.deficit),
         ("SCHLICK_EXCESS", "B / E - (1 - μ)⁵ by width and warped cosine.", &tables.schlick_excess),
     ] {
-        let _ = writeln!(out, "\n/// {doc}\npub(super) static {name}: [[f32; N_MU]; N_ALPHA] = [");
+        let _ = writeln!(out, "\n/// {doc}\npub static {name}: [[f32; N_MU]; N_ALPHA] = [");
         for row in table {
             let _ = writeln!(out, "    [{}],", literals(row));
         }
@@ -140,7 +140,7 @@ pub fn data_file() -> String {
     ] {
         let _ = writeln!(
             out,
-            "\n/// {doc}\npub(super) static {name}: [f32; N_AVERAGE] = [{}];",
+            "\n/// {doc}\npub static {name}: [f32; N_AVERAGE] = [{}];",
             literals(values)
         );
     }
