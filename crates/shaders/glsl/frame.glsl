@@ -2,6 +2,8 @@
 #ifndef FRAME_GLSL
 #define FRAME_GLSL
 
+#include "math.glsl"
+
 // Three orthonormal axes, right-handed: t x b = n.
 struct Frame {
     vec3 t;
@@ -12,8 +14,7 @@ struct Frame {
 // A frame around a unit normal, continuous except across n.z = 0.
 // Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3.
 Frame frame_from_normal(vec3 n) {
-    // 1 with the sign of n.z, that of -0 included.
-    float sign_ = uintBitsToFloat((floatBitsToUint(n.z) & 0x80000000u) | 0x3f800000u);
+    float sign_ = copysign(1.0, n.z);
     float a = -1.0 / (sign_ + n.z);
     float b = n.x * n.y * a;
     return Frame(

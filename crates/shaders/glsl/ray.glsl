@@ -2,7 +2,9 @@
 #ifndef RAY_GLSL
 #define RAY_GLSL
 
-const float INFINITY = uintBitsToFloat(0x7f800000u);
+#include "math.glsl"
+
+#define INFINITY uintBitsToFloat(0x7f800000u)
 
 // A ray segment in world space.
 struct Ray {

@@ -19,6 +19,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Ta
     uint aniso_schlick_residual[4320];
     float aniso_deficit_average[37][21];
     float aniso_schlick_average[37][21];
+    // core/src/wavelength.rs: responses of the three bands at each node, and the integral of their mean up to it.
+    vec3 wavelength_response[63];
+    float wavelength_cdf[63];
+    // core/src/filter.rs: inverses of the Gaussian and the Blackman-Harris filter.
+    float filter_distance[2][257];
 };
 
 #endif

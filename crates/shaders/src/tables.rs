@@ -2,6 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use lumbre_core::bsdf::{albedo, aniso_albedo, sheen};
+use lumbre_core::filter::{self, Filter, FilterKind};
+use lumbre_core::rgb::Rgb;
+use lumbre_core::wavelength;
 
 /// All tables.
 #[repr(C)]
@@ -27,7 +30,16 @@ pub struct Tables {
     pub aniso_deficit_average: [[f32; aniso_albedo::AVERAGES[1]]; aniso_albedo::AVERAGES[0]],
     /// [`aniso_albedo::SCHLICK_AVERAGE`].
     pub aniso_schlick_average: [[f32; aniso_albedo::AVERAGES[1]]; aniso_albedo::AVERAGES[0]],
+    /// [`wavelength::Table::response`].
+    pub wavelength_response: [Rgb; wavelength::NODES],
+    /// [`wavelength::Table::cdf`].
+    pub wavelength_cdf: [f32; wavelength::NODES],
+    /// [`Filter::distances`] of [`TABULATED_FILTERS`].
+    pub filter_distance: [[f32; filter::TABLE + 1]; TABULATED_FILTERS.len()],
 }
+
+/// Filters that are sampled by a table: the last ones of their kind, so that shaders find a table by its number.
+const TABULATED_FILTERS: [FilterKind; 2] = [FilterKind::Gaussian, FilterKind::BlackmanHarris];
 
 /// What goes into the buffer.
 pub fn tables() -> Vec<u8> {
@@ -42,6 +54,9 @@ pub fn tables() -> Vec<u8> {
         aniso_schlick_residual: aniso_albedo::SCHLICK_RESIDUAL,
         aniso_deficit_average: aniso_albedo::DEFICIT_AVERAGE,
         aniso_schlick_average: aniso_albedo::SCHLICK_AVERAGE,
+        wavelength_response: wavelength::Table::get().response,
+        wavelength_cdf: wavelength::Table::get().cdf,
+        filter_distance: TABULATED_FILTERS.map(|kind| *Filter::new(kind).distances()),
     };
     bytemuck::bytes_of(&tables).to_vec()
 }

@@ -138,11 +138,7 @@ pub fn data_file() -> String {
         ("DEFICIT_AVERAGE", "Hemispherical 1 - E by width, over α^1.5.", &tables.deficit_average),
         ("SCHLICK_AVERAGE", "Hemispherical B by width.", &tables.schlick_average),
     ] {
-        let _ = writeln!(
-            out,
-            "\n/// {doc}\npub static {name}: [f32; N_AVERAGE] = [{}];",
-            literals(values)
-        );
+        let _ = writeln!(out, "\n/// {doc}\npub static {name}: [f32; N_AVERAGE] = [{}];", literals(values));
     }
     out
 }
