@@ -3,7 +3,7 @@
 
 use crate::math::{PI, exp, lerp, safe_sqrt, sin_cos};
 
-/// Shape of the pixel filter. All are separable, symmetric and nowhere negative.
+/// Shape of the pixel filter. All are separable, symmetric and nowhere negative. Shaders number them in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum FilterKind {
     /// Exactly one pixel.
@@ -18,7 +18,7 @@ pub enum FilterKind {
 }
 
 /// Intervals of the tabulated inverse.
-const TABLE: usize = 256;
+pub const TABLE: usize = 256;
 
 /// A filter ready to be sampled.
 #[derive(Clone, Debug)]
@@ -62,6 +62,11 @@ impl Filter {
     /// Tabulates the filter.
     pub fn new(kind: FilterKind) -> Self {
         Filter { kind, distance: invert(kind) }
+    }
+
+    /// The tabulated inverse: distances from the centre, pixels, beyond which a share `(i / TABLE)²` of half the filter lies.
+    pub fn distances(&self) -> &[f32; TABLE + 1] {
+        &self.distance
     }
 
     /// Offset from the pixel's centre for a point of the unit square, pixels.

@@ -39,7 +39,7 @@ pub fn absorption_from_color(color: Spectrum, distance: f32) -> Spectrum {
 }
 
 /// Deepest nesting of media that is followed; further ones are entered without effect.
-const DEPTH: usize = 4;
+pub const DEPTH: usize = 4;
 
 /// The media around a point, innermost last.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +77,11 @@ impl MediumStack {
             // The path began inside without knowing.
             None => (inside, *self.current()),
         }
+    }
+
+    /// All of them, innermost last.
+    pub fn as_slice(&self) -> &[Medium] {
+        &self.media[..self.len]
     }
 
     /// All of them, to be changed in place.

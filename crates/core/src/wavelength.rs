@@ -20,7 +20,7 @@ const FIRST: f32 = 390.0;
 /// Distance between nodes, nm.
 const STEP: f32 = 5.0;
 /// Nodes: up to 700 nm, beyond which less than a thousandth of any response lies.
-const NODES: usize = 63;
+pub const NODES: usize = 63;
 
 /// A wavelength and the colour it carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,11 +31,13 @@ pub struct Wavelength {
     pub weight: Spectrum,
 }
 
-/// Responses of the three bands, each with integral 1 nm⁻¹, and the distribution of their mean.
-struct Table {
-    response: [Spectrum; NODES],
-    /// Integral of the mean up to each node.
-    cdf: [f32; NODES],
+/// What [`Wavelength::sample`] looks up.
+#[derive(Clone, Copy, Debug)]
+pub struct Table {
+    /// Responses of the three bands at each node, each with integral 1 nm⁻¹.
+    pub response: [Spectrum; NODES],
+    /// Integral of their mean up to each node, 0 to 1.
+    pub cdf: [f32; NODES],
 }
 
 static TABLE: LazyLock<Table> = LazyLock::new(Table::new);
@@ -56,6 +58,11 @@ impl Wavelength {
 }
 
 impl Table {
+    /// The table that all share.
+    pub fn get() -> &'static Self {
+        &TABLE
+    }
+
     fn new() -> Self {
         let mut response: [Spectrum; NODES] =
             core::array::from_fn(|i| band_response(FIRST + STEP * i as f32));

@@ -6,7 +6,6 @@ use crate::bvh::{Hit, SimdLevel};
 use crate::interaction::{Interaction, material_of};
 use crate::observer::{PathObserver, RayCounter};
 use crate::path;
-use crate::surface::medium;
 use crate::tracer::Tracer;
 use glam::Vec3;
 use lumbre_core::Ray;
@@ -18,6 +17,7 @@ use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::View;
 use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::material::flag;
+use lumbre_scene::compiled::surroundings::Crossing;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -115,51 +115,28 @@ impl CpuBackend {
         self.shot(view, size).sample(pixel, index, observer)
     }
 
-    /// The solids around a point: those that rays to infinity leave without having entered them, in every one of a few directions,
-    /// so that a pane which is open but claims to be solid does not count.
-    pub fn media_at(&self, point: Vec3) -> MediumStack {
-        // Not along an axis, so that they do not graze the walls of common models.
-        let directions = [
-            (0.267, 0.875, 0.404),
-            (-0.611, -0.733, 0.298),
-            (0.349, -0.211, -0.913),
-            (-0.728, 0.405, -0.553),
-        ];
-        let mut around = directions.map(|d| self.left_behind(point, Vec3::from(d).normalize())).into_iter();
-        let mut enclosing = around.next().unwrap_or_default();
-        for others in around {
-            enclosing.retain(|m| others.contains(m));
-        }
-        let mut stack = MediumStack::default();
-        let media = enclosing.into_iter().rev();
-        media.for_each(|id| stack.enter(medium(&self.scene.materials[id as usize], id)));
-        stack
+    /// The solids around a point: [`CompiledScene::surroundings`].
+    fn media_at(&self, point: Vec3) -> MediumStack {
+        self.scene.surroundings(|dir| self.crossings(point, dir))
     }
 
-    /// Materials of the solids that a ray to infinity leaves without having entered them, innermost first.
-    fn left_behind(&self, point: Vec3, dir: Vec3) -> Vec<u32> {
+    /// Surfaces of solids that a ray to infinity crosses.
+    fn crossings(&self, point: Vec3, dir: Vec3) -> Vec<Crossing> {
         const MOST_CROSSINGS: usize = 256;
         let is_solid = |id: u32| self.scene.materials[id as usize].has(flag::SOLID);
         let mut ray = Ray::new(point, dir, 0.0);
-        let (mut entered, mut left) = (Vec::new(), Vec::new());
+        let mut crossings = Vec::new();
         for _ in 0..MOST_CROSSINGS {
             // Opaque surfaces do not ask the filter: they are passed below.
             let solids = |hit: &Hit| is_solid(material_of(&self.scene, hit));
             let Some(hit) = self.accel.closest_hit(&ray, solids) else { break };
             let it = Interaction::new(&self.scene, &ray, &hit);
             ray.origin = it.leave(dir);
-            if !is_solid(it.material) {
-                continue;
-            }
-            if it.front {
-                entered.push(it.material);
-            } else if let Some(i) = entered.iter().rposition(|&e| e == it.material) {
-                entered.remove(i);
-            } else {
-                left.push(it.material);
+            if is_solid(it.material) {
+                crossings.push(Crossing { material: it.material, front: it.front });
             }
         }
-        left
+        crossings
     }
 }
 

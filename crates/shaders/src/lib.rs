@@ -3,3 +3,8 @@
 //!
 //! A shader twin has the file name, the function names, the order of steps and the constants of the Rust file that it repeats.
 #![forbid(unsafe_code)]
+
+pub mod camera;
+pub mod layout;
+pub mod medium;
+pub mod tables;

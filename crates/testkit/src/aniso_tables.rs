@@ -184,7 +184,7 @@ impl Tables {
             let mut out = format!(
                 "//! Data of [`super::aniso_albedo`], written by `cargo run -p lumbre-testkit --example aniso_tables {file}`. Do \
                  not edit.\n\nuse super::aniso_albedo::{{AVERAGES, NODES}};\n\n\
-                 /// {what} by widths and profiles.\npub(super) static {name}: [i16; NODES] = ["
+                 /// {what} by widths and profiles.\npub static {name}: [i16; NODES] = ["
             );
             for value in &self.nodes[t] {
                 let _ = write!(out, "{value}, ");
@@ -192,7 +192,7 @@ impl Tables {
             let _ = write!(
                 out,
                 "];\n\n/// Hemispherical {what_average}, by widths.\n\
-                 pub(super) static {name_average}: [[f32; AVERAGES[1]]; AVERAGES[0]] = ["
+                 pub static {name_average}: [[f32; AVERAGES[1]]; AVERAGES[0]] = ["
             );
             for row in averages[t] {
                 let row: Vec<String> = row.iter().map(|v| format!("{v:.3e}")).collect();

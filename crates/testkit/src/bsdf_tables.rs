@@ -128,7 +128,7 @@ pub fn data_file() -> String {
         ("DEFICIT", "1 - E by width and warped cosine.", &tables.deficit),
         ("SCHLICK_EXCESS", "B / E - (1 - μ)⁵ by width and warped cosine.", &tables.schlick_excess),
     ] {
-        let _ = writeln!(out, "\n/// {doc}\npub(super) static {name}: [[f32; N_MU]; N_ALPHA] = [");
+        let _ = writeln!(out, "\n/// {doc}\npub static {name}: [[f32; N_MU]; N_ALPHA] = [");
         for row in table {
             let _ = writeln!(out, "    [{}],", literals(row));
         }
@@ -138,11 +138,7 @@ pub fn data_file() -> String {
         ("DEFICIT_AVERAGE", "Hemispherical 1 - E by width, over α^1.5.", &tables.deficit_average),
         ("SCHLICK_AVERAGE", "Hemispherical B by width.", &tables.schlick_average),
     ] {
-        let _ = writeln!(
-            out,
-            "\n/// {doc}\npub(super) static {name}: [f32; N_AVERAGE] = [{}];",
-            literals(values)
-        );
+        let _ = writeln!(out, "\n/// {doc}\npub static {name}: [f32; N_AVERAGE] = [{}];", literals(values));
     }
     out
 }

@@ -11,6 +11,7 @@ pub mod furnace;
 pub mod fuzzing;
 pub mod measure;
 pub mod npy;
+pub mod paired;
 pub mod plot;
 pub mod ready;
 pub mod references;

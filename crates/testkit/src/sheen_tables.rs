@@ -53,7 +53,7 @@ pub fn data_file() -> String {
         "//! Data of [`super::sheen`], written by `cargo run --release -p lumbre-testkit --example bsdf_tables`. Do not edit.\n\n\
          use super::sheen::{N_MU, N_ROUGHNESS};\n\n\
          /// E by roughness and warped cosine.\n\
-         pub(super) static DIRECTIONAL: [[f32; N_MU]; N_ROUGHNESS] = [\n",
+         pub static DIRECTIONAL: [[f32; N_MU]; N_ROUGHNESS] = [\n",
     );
     for k in 0..N_ROUGHNESS {
         let _ = writeln!(out, "    [{}],", literals(&row(k)));
@@ -61,7 +61,7 @@ pub fn data_file() -> String {
     let averages: Vec<f64> = (0..N_ROUGHNESS).map(|k| average(roughness_of_row(k))).collect();
     let _ = writeln!(
         out,
-        "];\n\n/// Hemispherical E by roughness.\npub(super) static AVERAGE: [f32; N_ROUGHNESS] = [{}];",
+        "];\n\n/// Hemispherical E by roughness.\npub static AVERAGE: [f32; N_ROUGHNESS] = [{}];",
         literals(&averages)
     );
     out

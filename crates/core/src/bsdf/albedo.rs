@@ -7,7 +7,7 @@
 //! averages (of the interpolated tables, so that compensation neither gains nor loses) are four times as dense.
 //! Interpolation is within 0.0012 of E and 0.003 of B (tested where the tables are made: testkit `bsdf_tables`).
 
-use super::albedo_data::{DEFICIT, DEFICIT_AVERAGE, SCHLICK_AVERAGE, SCHLICK_EXCESS};
+pub use super::albedo_data::{DEFICIT, DEFICIT_AVERAGE, SCHLICK_AVERAGE, SCHLICK_EXCESS};
 use crate::fresnel::schlick_weight;
 use crate::math::lerp;
 use crate::microfacet::ALPHA_SMOOTH;

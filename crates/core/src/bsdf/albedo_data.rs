@@ -4,7 +4,7 @@
 use super::albedo::{N_ALPHA, N_AVERAGE, N_MU};
 
 /// 1 - E by width and warped cosine.
-pub(super) static DEFICIT: [[f32; N_MU]; N_ALPHA] = [
+pub static DEFICIT: [[f32; N_MU]; N_ALPHA] = [
     [
         0.0000e0, 2.1829e-4, 8.7666e-4, 1.9857e-3, 3.5530e-3, 5.5809e-3, 8.1025e-3, 1.1122e-2, 1.4675e-2,
         1.8780e-2, 2.3464e-2, 2.8750e-2, 3.4660e-2, 4.1207e-2, 4.8379e-2, 5.6149e-2, 6.4436e-2, 7.3097e-2,
@@ -200,7 +200,7 @@ pub(super) static DEFICIT: [[f32; N_MU]; N_ALPHA] = [
 ];
 
 /// B / E - (1 - μ)⁵ by width and warped cosine.
-pub(super) static SCHLICK_EXCESS: [[f32; N_MU]; N_ALPHA] = [
+pub static SCHLICK_EXCESS: [[f32; N_MU]; N_ALPHA] = [
     [
         -2.7441e-2, -2.6893e-2, -2.5299e-2, -2.2817e-2, -1.9735e-2, -1.6444e-2, -1.3332e-2, -1.0657e-2,
         -8.5042e-3, -6.8313e-3, -5.5460e-3, -4.5537e-3, -3.7776e-3, -3.1607e-3, -2.6622e-3, -2.2531e-3,
@@ -396,7 +396,7 @@ pub(super) static SCHLICK_EXCESS: [[f32; N_MU]; N_ALPHA] = [
 ];
 
 /// Hemispherical 1 - E by width, over α^1.5.
-pub(super) static DEFICIT_AVERAGE: [f32; N_AVERAGE] = [
+pub static DEFICIT_AVERAGE: [f32; N_AVERAGE] = [
     1.3760e0, 1.1936e0, 1.0495e0, 9.4003e-1, 8.5645e-1, 8.3665e-1, 8.0913e-1, 7.8037e-1, 7.5291e-1,
     7.5965e-1, 7.5756e-1, 7.5044e-1, 7.4046e-1, 7.5562e-1, 7.6246e-1, 7.6356e-1, 7.6064e-1, 7.7726e-1,
     7.8659e-1, 7.9046e-1, 7.9018e-1, 8.0611e-1, 8.1565e-1, 8.2018e-1, 8.2074e-1, 8.3540e-1, 8.4440e-1,
@@ -414,7 +414,7 @@ pub(super) static DEFICIT_AVERAGE: [f32; N_AVERAGE] = [
 ];
 
 /// Hemispherical B by width.
-pub(super) static SCHLICK_AVERAGE: [f32; N_AVERAGE] = [
+pub static SCHLICK_AVERAGE: [f32; N_AVERAGE] = [
     4.7599e-2, 4.7583e-2, 4.7559e-2, 4.7526e-2, 4.7483e-2, 4.7422e-2, 4.7346e-2, 4.7253e-2, 4.7143e-2,
     4.7004e-2, 4.6843e-2, 4.6661e-2, 4.6456e-2, 4.6215e-2, 4.5950e-2, 4.5661e-2, 4.5347e-2, 4.4995e-2,
     4.4619e-2, 4.4219e-2, 4.3796e-2, 4.3337e-2, 4.2856e-2, 4.2354e-2, 4.1831e-2, 4.1280e-2, 4.0710e-2,

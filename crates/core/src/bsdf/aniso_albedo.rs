@@ -11,8 +11,8 @@
 //! +0.11 (tested where the tables are made: testkit `aniso_tables`). Averages over the hemisphere are those of the interpolation.
 
 use super::albedo::{AlbedoRow, Directional, column};
-use super::aniso_albedo_deficit::{DEFICIT, DEFICIT_AVERAGE};
-use super::aniso_albedo_schlick::{SCHLICK_AVERAGE, SCHLICK_RESIDUAL};
+pub use super::aniso_albedo_deficit::{DEFICIT, DEFICIT_AVERAGE};
+pub use super::aniso_albedo_schlick::{SCHLICK_AVERAGE, SCHLICK_RESIDUAL};
 use crate::math::{Vec3, lerp};
 use crate::microfacet::Ggx;
 

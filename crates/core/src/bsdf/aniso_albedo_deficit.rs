@@ -3,7 +3,7 @@
 use super::aniso_albedo::{AVERAGES, NODES};
 
 /// 1 - E by widths and profiles.
-pub(super) static DEFICIT: [i16; NODES] = [
+pub static DEFICIT: [i16; NODES] = [
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 0, 2, 14, 22, 24, 25, 25, 25, 25,
     25, 25, 25, 0, 2, 22, 58, 81, 91, 94, 96, 96, 97, 97, 97, 0, 2, 24, 81, 145, 190, 211, 221, 225, 227,
     228, 228, 0, 2, 25, 91, 190, 286, 353, 390, 408, 415, 418, 419, 0, 2, 25, 94, 211, 353, 482, 573, 623,
@@ -384,7 +384,7 @@ pub(super) static DEFICIT: [i16; NODES] = [
 ];
 
 /// Hemispherical 1 - E, over α^1.5, by widths.
-pub(super) static DEFICIT_AVERAGE: [[f32; AVERAGES[1]]; AVERAGES[0]] = [
+pub static DEFICIT_AVERAGE: [[f32; AVERAGES[1]]; AVERAGES[0]] = [
     [
         3.713e0, 3.684e0, 3.655e0, 3.626e0, 3.596e0, 3.572e0, 3.548e0, 3.523e0, 3.499e0, 3.475e0, 3.450e0,
         3.426e0, 3.402e0, 3.382e0, 3.362e0, 3.343e0, 3.323e0, 3.304e0, 3.284e0, 3.265e0, 3.246e0,

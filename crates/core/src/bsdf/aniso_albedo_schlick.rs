@@ -3,7 +3,7 @@
 use super::aniso_albedo::{AVERAGES, NODES};
 
 /// B/E less the isotropic one by widths and profiles.
-pub(super) static SCHLICK_RESIDUAL: [i16; NODES] = [
+pub static SCHLICK_RESIDUAL: [i16; NODES] = [
     400, 400, 400, 400, 400, 400, 400, 400, 400, 400, 400, 400, 400, 397, 396, 396, 396, 396, 396, 396, 396,
     396, 396, 396, 400, 396, 391, 389, 388, 388, 388, 388, 388, 388, 388, 388, 400, 396, 389, 380, 375, 373,
     373, 372, 372, 372, 372, 372, 400, 396, 388, 375, 363, 355, 351, 349, 348, 348, 348, 348, 400, 396, 388,
@@ -390,7 +390,7 @@ pub(super) static SCHLICK_RESIDUAL: [i16; NODES] = [
 ];
 
 /// Hemispherical B, by widths.
-pub(super) static SCHLICK_AVERAGE: [[f32; AVERAGES[1]]; AVERAGES[0]] = [
+pub static SCHLICK_AVERAGE: [[f32; AVERAGES[1]]; AVERAGES[0]] = [
     [
         4.776e-2, 4.775e-2, 4.774e-2, 4.773e-2, 4.772e-2, 4.771e-2, 4.770e-2, 4.770e-2, 4.769e-2, 4.768e-2,
         4.767e-2, 4.766e-2, 4.766e-2, 4.765e-2, 4.763e-2, 4.762e-2, 4.761e-2, 4.761e-2, 4.760e-2, 4.759e-2,

@@ -14,7 +14,7 @@
 //!
 //! Left out: multiple scattering between fibres, and the authors' softening of the terminator, which is not reciprocal.
 
-use super::sheen_data::{AVERAGE, DIRECTIONAL};
+pub use super::sheen_data::{AVERAGE, DIRECTIONAL};
 use crate::math::{INV_PI, PI, Vec3, exp, lerp, ln, pow, safe_sqrt, sin_cos, sqr};
 use crate::rgb::Spectrum;
 

@@ -3,7 +3,7 @@
 use super::sheen::{N_MU, N_ROUGHNESS};
 
 /// E by roughness and warped cosine.
-pub(super) static DIRECTIONAL: [[f32; N_MU]; N_ROUGHNESS] = [
+pub static DIRECTIONAL: [[f32; N_MU]; N_ROUGHNESS] = [
     [
         1.0000e0, 9.9504e-1, 9.8355e-1, 9.6741e-1, 9.4753e-1, 9.2451e-1, 8.9875e-1, 8.7054e-1, 8.4012e-1,
         8.0765e-1, 7.7324e-1, 7.3700e-1, 6.9899e-1, 6.5927e-1, 6.1788e-1, 5.7487e-1, 5.3027e-1, 4.8415e-1,
@@ -199,7 +199,7 @@ pub(super) static DIRECTIONAL: [[f32; N_MU]; N_ROUGHNESS] = [
 ];
 
 /// Hemispherical E by roughness.
-pub(super) static AVERAGE: [f32; N_ROUGHNESS] = [
+pub static AVERAGE: [f32; N_ROUGHNESS] = [
     2.2166e-3, 5.7356e-3, 1.0841e-2, 1.7459e-2, 2.5492e-2, 3.4817e-2, 4.5290e-2, 5.6744e-2, 6.8995e-2,
     8.1847e-2, 9.5104e-2, 1.0857e-1, 1.2208e-1, 1.3547e-1, 1.4861e-1, 1.6139e-1, 1.7375e-1, 1.8561e-1,
     1.9694e-1, 2.0773e-1, 2.1796e-1, 2.2764e-1, 2.3677e-1, 2.4537e-1, 2.5347e-1, 2.6108e-1, 2.6824e-1,

@@ -19,7 +19,7 @@ pub mod sobol;
 
 use crate::hash::{hash_combine, hash_u32, to_unit};
 
-/// How the unit hypercube is sampled.
+/// How the unit hypercube is sampled. Shaders number the kinds in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum SamplerKind {
     /// Owen-scrambled Sobol points, shuffled per pixel and set.

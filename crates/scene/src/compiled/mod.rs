@@ -3,6 +3,7 @@
 pub mod geometry;
 pub mod lights;
 pub mod material;
+pub mod surroundings;
 pub mod texture;
 
 use bytemuck::{bytes_of, cast_slice};
