@@ -8,3 +8,4 @@ pub mod camera;
 pub mod layout;
 pub mod medium;
 pub mod tables;
+pub mod view;
