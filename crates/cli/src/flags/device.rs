@@ -2,7 +2,6 @@
 
 use clap::Args;
 use lumbre::{Device, GpuOptions};
-use std::env;
 
 /// What renders.
 #[derive(Args, Debug)]
@@ -24,13 +23,9 @@ pub(crate) struct DeviceArgs {
     pub(crate) threads: Option<u16>,
 }
 
-/// For tests: after so many passes the GPU counts as lost.
-const LOSE_GPU: &str = "LUMBRE_LOSE_GPU";
-
 impl DeviceArgs {
     /// How a GPU is used.
     pub(crate) fn options(&self) -> GpuOptions {
-        let lose_after = env::var(LOSE_GPU).ok().and_then(|n| n.parse().ok());
-        GpuOptions { validation: self.validation, lose_after }
+        GpuOptions { validation: self.validation }
     }
 }

@@ -68,7 +68,7 @@ pub(crate) fn command() -> Command {
 /// The program with the GPUs of this machine.
 pub(crate) fn with_gpus() -> Command {
     let mut c = Command::new(env!("CARGO_BIN_EXE_lumbre"));
-    c.env_remove("LUMBRE_SIMD").env_remove("RAYON_NUM_THREADS").env_remove("LUMBRE_LOSE_GPU");
+    c.env_remove("LUMBRE_SIMD").env_remove("RAYON_NUM_THREADS").env_remove("LUMBRE_TEST_LOSE_DEVICE");
     c
 }
 
