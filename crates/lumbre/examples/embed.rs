@@ -29,10 +29,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     });
 
     let mut film = Film::new(width, height);
-    let outcome = pool.install(|| -> Result<_, lumbre::DeviceError> {
+    let outcome = pool.install(|| -> Result<_, Box<dyn std::error::Error + Send + Sync>> {
         let backend = lumbre::prepare(compiled, Device::Auto)?;
         let targets = Targets::error(0.005).or_spp(256).or_time(Duration::from_secs(20));
-        Ok(lumbre::render(&*backend, &view, targets, &mut film, &watch))
+        Ok(lumbre::render(&*backend, &view, targets, &mut film, &watch)?)
     })?;
 
     // Linear radiance: red, green, blue of each pixel, the top row first.

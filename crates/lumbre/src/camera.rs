@@ -1,6 +1,6 @@
 //! Which camera a picture is taken with.
 
-use crate::backend::Backend;
+use crate::backend::{Backend, RenderError};
 #[cfg(feature = "files")]
 use crate::info::CameraInfo;
 use glam::{Affine3A, Mat4, Vec3};
@@ -254,7 +254,10 @@ const FOCUS_SPOT: f32 = 1e-3;
 
 /// Distance along the direction of view of what lies at `at` in the picture (the unit square, y down), metres; `None` where
 /// nothing does. The median of a few rays; works on any backend.
-pub fn focus_distance(backend: &dyn Backend, view: &View, at: [f32; 2]) -> Option<f32> {
+///
+/// # Errors
+/// If the device fails.
+pub fn focus_distance(backend: &dyn Backend, view: &View, at: [f32; 2]) -> Result<Option<f32>, RenderError> {
     let camera = &view.camera;
     let towards = Camera { lens_radius: 0.0, ..*camera }.ray(at, [0.5; 2], 0.0);
     let spot = Camera {
@@ -270,13 +273,14 @@ pub fn focus_distance(backend: &dyn Backend, view: &View, at: [f32; 2]) -> Optio
     let view = View { camera: spot, settings, frame: 0 };
     let distance = |index: u32| {
         let mut film = Film::new(1, 1);
-        backend.render(&view, index..index + 1, &mut film, &());
-        film.pixel(0, 0).depth()
+        backend.render(&view, index..index + 1, &mut film, &())?;
+        Ok(film.pixel(0, 0).depth())
     };
-    let mut found: Vec<f32> = (0..FOCUS_RAYS).map(distance).filter(|d| d.is_finite()).collect();
+    let mut found: Vec<f32> = (0..FOCUS_RAYS).map(distance).collect::<Result<_, _>>()?;
+    found.retain(|d| d.is_finite());
     found.sort_by(f32::total_cmp);
     let along = towards.dir.dot(camera.forward);
-    found.get(found.len() / 2).map(|d| d * along).filter(|d| *d > 0.0)
+    Ok(found.get(found.len() / 2).map(|d| d * along).filter(|d| *d > 0.0))
 }
 
 /// The whole scene in view, from its front (+z), a little from the right and from above.

@@ -25,7 +25,7 @@
 //! let view = View { camera: found.camera, settings: RenderSettings::default(), frame: 0 };
 //! let backend = lumbre::prepare(compiled, Device::Auto)?;
 //! let mut film = Film::new(800, 600);
-//! lumbre::render(&*backend, &view, Targets::spp(64), &mut film, &());
+//! lumbre::render(&*backend, &view, Targets::spp(64), &mut film, &())?;
 //! let picture: Vec<u8> = lumbre::output::to_srgb8(&film, Exposure::Auto);
 //! # Ok(())
 //! # }
@@ -56,7 +56,10 @@ pub mod output;
 pub mod render;
 pub mod targets;
 
-pub use backend::{Backend, Device, DeviceError, prepare, prepare_cpu};
+pub use backend::{
+    Backend, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback, Frames, GpuChoice, GpuOptions,
+    OpenDevice, PassTime, RenderError, devices, prepare, prepare_cpu,
+};
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,
 };
@@ -69,7 +72,7 @@ pub use light::{LightKinds, light_kinds};
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
 pub use lumbre_scene::{CompileError, Compiled, compile};
 pub use render::{Watch, render};
-pub use targets::{Ended, Outcome, SoFar, Targets};
+pub use targets::{Ended, Outcome, RenderFailed, SoFar, Targets};
 
 pub use rayon;
 
@@ -108,7 +111,7 @@ mod tests {
         crosses::<lumbre_core::settings::View>();
         crosses::<CancelToken>();
         crosses::<Outcome>();
-        crosses::<DeviceError>();
+        crosses::<(DeviceError, OpenDevice, Devices, Fallback, RenderFailed)>();
         #[cfg(feature = "files")]
         crosses::<(Loaded, lumbre_io::IoError, info::SceneInfo)>();
     }

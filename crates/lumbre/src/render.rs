@@ -1,8 +1,8 @@
 //! Rendering a picture until a target is met: passes over the whole picture, so that it is even whenever it ends.
 
-use crate::backend::Backend;
+use crate::backend::{Backend, RenderError};
 use crate::estimate::Estimator;
-use crate::targets::{Ended, Outcome, SoFar, Targets};
+use crate::targets::{Ended, Outcome, RenderFailed, SoFar, Targets};
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
@@ -29,6 +29,8 @@ pub trait Watch: Control {
     fn ends_even(&self) -> bool {
         false
     }
+    /// Something to tell people, in one line: that a device failed and another one goes on.
+    fn notice(&self, _what: &str) {}
 }
 
 impl Watch for () {}
@@ -39,13 +41,21 @@ impl Watch for () {}
 /// The film may hold other samples already; its error is then estimated from the spread of all samples alone
 /// ([`crate::estimate`]).
 ///
+/// A device that fails is replaced where the backend knows another one ([`Backend::recover`]): `watch` gets a notice, the pass
+/// that failed is made again, and the picture is of the same samples as if nothing had happened.
+///
+/// # Errors
+/// If the device fails and there is no other. The film then holds the passes before, whole: every pixel has the samples that
+/// the error's `outcome` tells.
+///
 /// ```no_run
 /// # use lumbre::prelude::*;
-/// # fn f(backend: &dyn Backend, view: &View) {
+/// # fn f(backend: &dyn Backend, view: &View) -> Result<(), lumbre::RenderFailed> {
 /// let mut film = Film::new(800, 600);
 /// let targets = Targets::error(0.005).or_spp(4096).or_time(std::time::Duration::from_secs(60));
-/// let outcome = lumbre::render(backend, view, targets, &mut film, &());
+/// let outcome = lumbre::render(backend, view, targets, &mut film, &())?;
 /// println!("{} samples per pixel, estimated relMSE {:?}", outcome.spp, outcome.error);
+/// # Ok(())
 /// # }
 /// ```
 pub fn render(
@@ -54,7 +64,7 @@ pub fn render(
     targets: impl Into<Targets>,
     film: &mut Film,
     watch: &dyn Watch,
-) -> Outcome {
+) -> Result<Outcome, RenderFailed> {
     let targets = targets.into();
     let estimator = Estimator::new(film, &view.settings);
     let mut run = Run {
@@ -65,20 +75,32 @@ pub fn render(
         looked_at: 0,
         so_far: SoFar::default(),
     };
-    let ended = loop {
+    let (ended, failure) = loop {
         if let Some(ended) = run.met() {
-            break ended;
+            break (ended, None);
         }
-        if watch.cancelled() || !run.pass(backend, view, film, watch) {
-            break Ended::Cancelled;
+        if watch.cancelled() {
+            break (Ended::Cancelled, None);
         }
-        watch.passed(film, &run.so_far);
+        match run.pass(backend, view, film, watch) {
+            Ok(true) => watch.passed(film, &run.so_far),
+            Ok(false) => break (Ended::Cancelled, None),
+            Err(e) => match backend.recover(e) {
+                Ok(what) => {
+                    // The other device has a speed of its own.
+                    run.per_sample = None;
+                    watch.notice(&what);
+                }
+                Err(e) => break (Ended::Failed, Some(e)),
+            },
+        }
     };
     if ended != Ended::Cancelled {
         run.look(film);
     }
     let SoFar { spp, progress, error, .. } = run.so_far;
-    Outcome { ended, spp, progress, error, seconds: run.began.elapsed().as_secs_f64() }
+    let outcome = Outcome { ended, spp, progress, error, seconds: run.began.elapsed().as_secs_f64() };
+    failure.map_or(Ok(outcome), |error| Err(RenderFailed { error, outcome }))
 }
 
 /// A render on its way.
@@ -124,16 +146,22 @@ impl Run {
         to_look.min(short).min(self.room().unwrap_or(u32::MAX).max(1))
     }
 
-    /// One pass over the picture; false if it was cancelled on the way.
-    fn pass(&mut self, backend: &dyn Backend, view: &View, film: &mut Film, watch: &dyn Watch) -> bool {
+    /// One pass over the picture; false if it was cancelled on the way. After an error all is as before.
+    fn pass(
+        &mut self,
+        backend: &dyn Backend,
+        view: &View,
+        film: &mut Film,
+        watch: &dyn Watch,
+    ) -> Result<bool, RenderError> {
         let length = self.length();
         let first = self.targets.first_sample + self.so_far.spp;
         let began = Instant::now();
         let earlier = Earlier { done: self.so_far.progress, watch };
-        let done = backend.render(view, first..first + length, film, &earlier);
+        let done = backend.render(view, first..first + length, film, &earlier)?;
         self.so_far.progress = sum(self.so_far.progress, done);
         if done.samples < film.pixels().len() as u64 * u64::from(length) {
-            return false;
+            return Ok(false);
         }
         self.per_sample = Some(began.elapsed().as_secs_f64() / f64::from(length));
         self.so_far.spp += length;
@@ -143,7 +171,7 @@ impl Run {
         }
         self.so_far.seconds = self.began.elapsed().as_secs_f64();
         self.so_far.seconds_left = self.seconds_left();
-        true
+        Ok(true)
     }
 
     /// Estimates the error of the film as it is now.
@@ -231,13 +259,19 @@ mod tests {
         fn memory(&self) -> u64 {
             0
         }
-        fn render(&self, _: &View, samples: Range<u32>, film: &mut Film, control: &dyn Control) -> Progress {
+        fn render(
+            &self,
+            _: &View,
+            samples: Range<u32>,
+            film: &mut Film,
+            control: &dyn Control,
+        ) -> Result<Progress, RenderError> {
             self.asked.lock().unwrap().push(samples.clone());
             let mut done = Progress::default();
             for i in samples {
                 for p in 0..film.width() * film.height() {
                     if control.cancelled() {
-                        return done;
+                        return Ok(done);
                     }
                     let (x, y) = (p % film.width(), p / film.width());
                     film.add(
@@ -250,7 +284,7 @@ mod tests {
                 std::thread::sleep(self.nap);
             }
             control.progress(done);
-            done
+            Ok(done)
         }
     }
 
@@ -261,7 +295,7 @@ mod tests {
 
     fn run(noise: &Noise, targets: Targets, watch: &dyn Watch) -> (Outcome, Film) {
         let mut film = Film::new(16, 8);
-        let outcome = render(noise, &view(), targets, &mut film, watch);
+        let outcome = render(noise, &view(), targets, &mut film, watch).unwrap();
         (outcome, film)
     }
 

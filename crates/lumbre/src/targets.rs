@@ -1,5 +1,6 @@
 //! When a render ends, and how it ended.
 
+use crate::backend::RenderError;
 use lumbre_core::control::Progress;
 use std::ops::Range;
 use std::time::Duration;
@@ -74,6 +75,8 @@ pub enum Ended {
     Error,
     /// It was cancelled; pixels may differ in their samples by one pass.
     Cancelled,
+    /// The device failed and no other could go on; all pixels have the same samples.
+    Failed,
 }
 
 /// A render after a pass over the whole picture.
@@ -104,4 +107,14 @@ pub struct Outcome {
     pub seconds: f64,
     /// Estimated relMSE; `None` with fewer than two samples per pixel. Of a cancelled render, that of the last look.
     pub error: Option<f64>,
+}
+
+/// A render that its device could not finish.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{error}")]
+pub struct RenderFailed {
+    /// What happened.
+    pub error: RenderError,
+    /// How far it came; what ended it is [`Ended::Failed`]. The film holds that many samples of every pixel.
+    pub outcome: Outcome,
 }

@@ -36,7 +36,7 @@ impl Studio {
     fn film(&self, samples: Range<u32>, crop: Crop, threads: usize) -> Film {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let mut film = Film::window(SIZE, crop);
-        pool.install(|| self.backend.render(&self.view, samples, &mut film, &()));
+        pool.install(|| self.backend.render(&self.view, samples, &mut film, &())).unwrap();
         film
     }
 

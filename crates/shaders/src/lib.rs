@@ -9,3 +9,4 @@ pub mod film;
 pub mod layout;
 pub mod medium;
 pub mod tables;
+pub mod view;

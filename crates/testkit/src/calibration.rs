@@ -175,7 +175,7 @@ pub fn measure(subject: &Subject, plan: &Plan) -> Option<Vec<Row>> {
             let mut film = Film::new(plan.size[0], plan.size[1]);
             let shots = Shots(&plan.counts, Mutex::default());
             let targets = Targets::spp(last).from_sample(plan.first_sample);
-            lumbre::render(&*backend, &view, targets, &mut film, &shots);
+            lumbre::render(&*backend, &view, targets, &mut film, &shots).expect("the CPU does not fail");
             shots.1.into_inner().expect("one thread")
         })
         .collect();

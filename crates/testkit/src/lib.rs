@@ -9,8 +9,10 @@ pub mod chi_square;
 pub mod convergence;
 pub mod furnace;
 pub mod fuzzing;
+mod gpu;
 pub mod measure;
 pub mod npy;
+pub mod paired;
 pub mod plot;
 pub mod ready;
 pub mod references;
@@ -18,3 +20,5 @@ pub mod shapes;
 pub mod sheen_tables;
 pub mod square;
 pub mod z_test;
+
+pub use gpu::{TestGpu, gpu};

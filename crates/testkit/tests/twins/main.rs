@@ -1,0 +1,24 @@
+//! Twin tests: shader functions against the Rust functions that they repeat, on the same inputs.
+//!
+//! A kernel of `crates/shaders/glsl/twins` evaluates the shader's side; each file here is named after the kernel and evaluates
+//! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
+
+mod hash;
+
+use bytemuck::Pod;
+use lumbre_vulkan::Specialisation;
+
+/// SPIR-V of a kernel.
+macro_rules! kernel {
+    ($name:literal) => {
+        include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders/spirv/twins/", $name, ".comp.spv"))
+    };
+}
+pub(crate) use kernel;
+
+/// What a kernel says to the inputs; `None` where there is no device. `tables` is what the kernel reads as `push.tables`.
+pub(crate) fn evaluate<I: Pod, O: Pod>(spirv: &[u8], tables: &[u8], inputs: &[I]) -> Option<Vec<O>> {
+    let gpu = lumbre_testkit::gpu()?;
+    let kernel = gpu.kernel(spirv, tables, &Specialisation::new()).unwrap_or_else(|e| panic!("{e}"));
+    Some(kernel.run(inputs).unwrap_or_else(|e| panic!("{e}")))
+}

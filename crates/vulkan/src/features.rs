@@ -1,0 +1,174 @@
+//! What a device must have, and what is used where it is there.
+
+use ash::vk;
+use std::ffi::CStr;
+
+/// Extensions that a device must have.
+pub(crate) const REQUIRED_EXTENSIONS: [&CStr; 3] = [
+    ash::khr::acceleration_structure::NAME,
+    ash::khr::ray_tracing_pipeline::NAME,
+    ash::khr::deferred_host_operations::NAME, // asked for by the first
+];
+
+/// What a device has beyond what it must.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Features {
+    /// Says how much memory is free (`VK_EXT_memory_budget`).
+    pub memory_budget: bool,
+    /// Rays can be sorted before they are shaded (`VK_NV_ray_tracing_invocation_reorder`).
+    pub invocation_reorder: bool,
+    /// Descriptors may be written while command buffers that use them are recorded.
+    pub update_after_bind: bool,
+    /// Its queue draws, too.
+    pub graphics: bool,
+}
+
+/// The feature structures of a device, to be filled by a query or to be enabled.
+#[derive(Default)]
+pub(crate) struct Chain {
+    v11: vk::PhysicalDeviceVulkan11Features<'static>,
+    v12: vk::PhysicalDeviceVulkan12Features<'static>,
+    acceleration: vk::PhysicalDeviceAccelerationStructureFeaturesKHR<'static>,
+    pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR<'static>,
+    reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV<'static>,
+}
+
+/// What a device offers.
+pub(crate) struct Offer {
+    extensions: Vec<vk::ExtensionProperties>,
+    core: vk::PhysicalDeviceFeatures,
+    chain: Chain,
+}
+
+impl Offer {
+    /// Asks a device of Vulkan 1.2 or newer.
+    pub(crate) fn of(
+        instance: &ash::Instance,
+        device: vk::PhysicalDevice,
+        extensions: Vec<vk::ExtensionProperties>,
+    ) -> Self {
+        let mut offer =
+            Offer { extensions, core: vk::PhysicalDeviceFeatures::default(), chain: Chain::default() };
+        let mut chain = Chain::default();
+        let mut all =
+            vk::PhysicalDeviceFeatures2::default().push_next(&mut chain.v11).push_next(&mut chain.v12);
+        // Structures of extensions that a device does not have must not be in the query.
+        if offer.has(ash::khr::acceleration_structure::NAME) {
+            all = all.push_next(&mut chain.acceleration);
+        }
+        if offer.has(ash::khr::ray_tracing_pipeline::NAME) {
+            all = all.push_next(&mut chain.pipeline);
+        }
+        if offer.has(ash::nv::ray_tracing_invocation_reorder::NAME) {
+            all = all.push_next(&mut chain.reorder);
+        }
+        // SAFETY: a device of this instance; the chain is alive.
+        unsafe { instance.get_physical_device_features2(device, &mut all) };
+        offer.core = all.features;
+        offer.chain = chain.unlinked();
+        offer
+    }
+
+    /// Whether it has an extension.
+    pub(crate) fn has(&self, extension: &CStr) -> bool {
+        self.extensions.iter().any(|e| e.extension_name_as_c_str() == Ok(extension))
+    }
+
+    /// Names of what it lacks of that which is required.
+    pub(crate) fn missing(&self) -> Vec<String> {
+        let extensions = REQUIRED_EXTENSIONS.iter().filter(|e| !self.has(e));
+        let mut missing: Vec<String> = extensions.map(|e| e.to_string_lossy().into_owned()).collect();
+        let v12 = &self.chain.v12;
+        let features = [
+            ("shaderInt64", self.core.shader_int64),
+            ("bufferDeviceAddress", v12.buffer_device_address),
+            ("scalarBlockLayout", v12.scalar_block_layout),
+            ("runtimeDescriptorArray", v12.runtime_descriptor_array),
+            (
+                "shaderSampledImageArrayNonUniformIndexing",
+                v12.shader_sampled_image_array_non_uniform_indexing,
+            ),
+            ("descriptorBindingPartiallyBound", v12.descriptor_binding_partially_bound),
+            ("descriptorBindingVariableDescriptorCount", v12.descriptor_binding_variable_descriptor_count),
+            ("accelerationStructure", self.chain.acceleration.acceleration_structure),
+            ("rayTracingPipeline", self.chain.pipeline.ray_tracing_pipeline),
+        ];
+        missing.extend(features.iter().filter(|f| f.1 == vk::FALSE).map(|f| f.0.to_owned()));
+        missing
+    }
+
+    /// What it has beyond that.
+    pub(crate) fn features(&self, graphics: bool) -> Features {
+        Features {
+            memory_budget: self.has(ash::ext::memory_budget::NAME),
+            invocation_reorder: self.has(ash::nv::ray_tracing_invocation_reorder::NAME)
+                && self.chain.reorder.ray_tracing_invocation_reorder == vk::TRUE,
+            update_after_bind: self.chain.v12.descriptor_binding_sampled_image_update_after_bind == vk::TRUE,
+            graphics,
+        }
+    }
+}
+
+impl Features {
+    /// Extensions to enable.
+    pub(crate) fn extensions(&self) -> Vec<&'static CStr> {
+        let optional = [
+            (ash::ext::memory_budget::NAME, self.memory_budget),
+            (ash::nv::ray_tracing_invocation_reorder::NAME, self.invocation_reorder),
+        ];
+        REQUIRED_EXTENSIONS.into_iter().chain(optional.into_iter().filter(|e| e.1).map(|e| e.0)).collect()
+    }
+
+    /// Features to enable: those required, and these.
+    pub(crate) fn chain(&self) -> Chain {
+        Chain {
+            v11: vk::PhysicalDeviceVulkan11Features::default(),
+            v12: vk::PhysicalDeviceVulkan12Features::default()
+                .buffer_device_address(true)
+                .scalar_block_layout(true)
+                .descriptor_indexing(true)
+                .runtime_descriptor_array(true)
+                .shader_sampled_image_array_non_uniform_indexing(true)
+                .descriptor_binding_partially_bound(true)
+                .descriptor_binding_variable_descriptor_count(true)
+                .descriptor_binding_sampled_image_update_after_bind(self.update_after_bind),
+            acceleration: vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default()
+                .acceleration_structure(true),
+            pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default().ray_tracing_pipeline(true),
+            reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV::default()
+                .ray_tracing_invocation_reorder(self.invocation_reorder),
+        }
+    }
+
+    /// Core features to enable.
+    pub(crate) fn core() -> vk::PhysicalDeviceFeatures {
+        vk::PhysicalDeviceFeatures::default().shader_int64(true)
+    }
+}
+
+impl Chain {
+    /// The same values, pointing nowhere.
+    fn unlinked(mut self) -> Self {
+        let nowhere = std::ptr::null_mut();
+        self.v11.p_next = nowhere;
+        self.v12.p_next = nowhere;
+        self.acceleration.p_next = nowhere;
+        self.pipeline.p_next = nowhere;
+        self.reorder.p_next = nowhere;
+        self
+    }
+
+    /// Adds all to what creates a device.
+    pub(crate) fn enable<'a>(
+        &'a mut self,
+        features: &Features,
+        create: vk::DeviceCreateInfo<'a>,
+    ) -> vk::DeviceCreateInfo<'a> {
+        let create = create
+            .push_next(&mut self.v11)
+            .push_next(&mut self.v12)
+            .push_next(&mut self.acceleration)
+            .push_next(&mut self.pipeline);
+        if features.invocation_reorder { create.push_next(&mut self.reorder) } else { create }
+    }
+}

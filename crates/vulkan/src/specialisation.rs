@@ -1,0 +1,54 @@
+//! Specialisation constants: what a shader is told when its pipeline is made.
+
+use ash::vk;
+
+/// Values of specialisation constants, four bytes each.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Specialisation {
+    entries: Vec<(u32, u32)>,
+}
+
+/// The same as Vulkan wants it.
+pub(crate) struct Table {
+    map: Vec<vk::SpecializationMapEntry>,
+    data: Vec<u8>,
+}
+
+impl Specialisation {
+    /// None: every constant keeps its default.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// With a `uint` or `int`.
+    pub fn uint(mut self, id: u32, value: u32) -> Self {
+        self.entries.push((id, value));
+        self
+    }
+
+    /// With a `bool`.
+    pub fn bool(self, id: u32, value: bool) -> Self {
+        self.uint(id, value.into())
+    }
+
+    /// With a `float`.
+    pub fn float(self, id: u32, value: f32) -> Self {
+        self.uint(id, value.to_bits())
+    }
+
+    pub(crate) fn table(&self) -> Table {
+        let entry = |(i, (id, _)): (usize, &(u32, u32))| {
+            vk::SpecializationMapEntry::default().constant_id(*id).offset(4 * i as u32).size(4)
+        };
+        Table {
+            map: self.entries.iter().enumerate().map(entry).collect(),
+            data: self.entries.iter().flat_map(|e| e.1.to_ne_bytes()).collect(),
+        }
+    }
+}
+
+impl Table {
+    pub(crate) fn info(&self) -> vk::SpecializationInfo<'_> {
+        vk::SpecializationInfo::default().map_entries(&self.map).data(&self.data)
+    }
+}
