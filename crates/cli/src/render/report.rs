@@ -23,7 +23,7 @@ pub(super) fn chosen(targets: &Targets) {
 /// Says why it stopped, where that was not clear from the beginning, and how good the picture is.
 pub(super) fn ended(outcome: &Outcome, targets: &Targets) {
     let why = match outcome.ended {
-        Ended::Cancelled => return,
+        Ended::Cancelled | Ended::Failed => return,
         Ended::Spp if targets.time.is_none() && targets.error.is_none() => "",
         Ended::Spp => "all samples taken: ",
         Ended::Time => "time is up: ",
