@@ -4,6 +4,7 @@
 pub mod state;
 
 use crate::rgb::Rgb;
+use bytemuck::{Pod, Zeroable};
 
 /// Fractional bits of the sums: a quantum of 6e-8, a range of 5e11.
 const FRACTION_BITS: i32 = 24;
@@ -34,8 +35,9 @@ pub struct FirstHit {
     pub depth: f32,
 }
 
-/// Sums of one pixel, in quanta of 2⁻²⁴ (squares: 2⁻⁴⁸).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Sums of one pixel, in quanta of 2⁻²⁴ (squares: 2⁻⁴⁸). Laid out in memory as shaders write it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct PixelSums {
     radiance: [i64; 3],
     luminance: i64,
@@ -48,10 +50,13 @@ pub struct PixelSums {
     samples: u32,
     hits: u32,
     saturated: u32,
+    /// Always 0: what the alignment of 128 bits leaves over.
+    unused: [u32; 3],
 }
 
-/// A camera sample that was thrown away because its radiance was not finite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// A camera sample that was thrown away because its radiance was not finite. Laid out in memory as shaders write it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Pod, Zeroable)]
 pub struct NonFinite {
     /// Row and column in the whole picture (row first, so that they sort in reading order).
     pub row_column: [u32; 2],
@@ -307,21 +312,33 @@ impl Film {
     /// # Panics
     /// If the tile reaches outside.
     pub fn merge_tile(&mut self, tile: &Film) {
-        let at = [0, 1].map(|i| tile.origin[i].wrapping_sub(self.origin[i]));
+        let crop = Crop { origin: tile.origin, size: [tile.width, tile.height] };
+        self.merge_sums(crop, &tile.pixels);
+        self.merge_non_finite(tile.non_finite_count, &tile.non_finite);
+    }
+
+    /// Adds sums that a backend made of other samples of a part of this film, row by row. Samples that were not finite are in their
+    /// counts; [`Film::merge_non_finite`] names them.
+    ///
+    /// # Panics
+    /// If the part reaches outside, or has another number of pixels.
+    pub fn merge_sums(&mut self, part: Crop, sums: &[PixelSums]) {
+        let at = [0, 1].map(|i| part.origin[i].wrapping_sub(self.origin[i]));
         let fits = |at: u32, size: u32, room: u32| at.checked_add(size).is_some_and(|end| end <= room);
-        assert!(
-            fits(at[0], tile.width, self.width) && fits(at[1], tile.height, self.height),
-            "tile outside the film"
-        );
-        for y in 0..tile.height {
-            let (from, to) = (tile.index(0, y), self.index(at[0], at[1] + y));
-            let n = tile.width as usize;
-            for (a, b) in self.pixels[to..to + n].iter_mut().zip(&tile.pixels[from..from + n]) {
-                a.merge(b);
-            }
+        let [width, height] = part.size;
+        assert!(fits(at[0], width, self.width) && fits(at[1], height, self.height), "tile outside the film");
+        assert_eq!(sums.len() as u64, u64::from(width) * u64::from(height), "sums of {part:?}");
+        for (y, row) in sums.chunks_exact(width.max(1) as usize).enumerate() {
+            let to = self.index(at[0], at[1] + y as u32);
+            self.pixels[to..to + row.len()].iter_mut().zip(row).for_each(|(a, b)| a.merge(b));
         }
-        self.non_finite_count += tile.non_finite_count;
-        tile.non_finite.iter().for_each(|n| self.name_non_finite(*n));
+    }
+
+    /// Counts `count` samples that were not finite and names those of `some` that come first in reading order. `some` must be all of
+    /// them, or more than a film names.
+    pub fn merge_non_finite(&mut self, count: u64, some: &[NonFinite]) {
+        self.non_finite_count += count;
+        some.iter().for_each(|n| self.name_non_finite(*n));
     }
 
     /// Mean radiance of each pixel, row by row.
@@ -406,6 +423,34 @@ mod tests {
         assert_eq!(whole.pixel(5, 3), part.pixel(1, 0));
         assert_eq!(whole.non_finite(), [NonFinite { row_column: [5, 7], sample: 5 }]);
         assert!((whole.pixel(5, 3).alpha() - unit(1, 6)).abs() < 1e-6);
+    }
+
+    /// What a backend hands over as memory adds up like a film of its own.
+    #[test]
+    fn sums_come_in_as_memory_too() {
+        assert_eq!(size_of::<PixelSums>(), 160);
+        let crop = Crop { origin: [4, 3], size: [2, 3] };
+        let mut part = Film::window([8, 8], crop);
+        for i in 0..60 {
+            part.add([i % 2, i / 2 % 3], i, &sample(i));
+        }
+        part.add([1, 2], 60, &FilmSample { radiance: Rgb::new(1.0, f32::NAN, 0.0), ..sample(0) });
+        let mut whole = Film::new(8, 8);
+        whole.add([5, 5], 99, &sample(1));
+        let mut other = whole.clone();
+        whole.merge_tile(&part);
+        let memory: &[u8] = bytemuck::cast_slice(part.pixels());
+        other.merge_sums(crop, bytemuck::cast_slice(memory));
+        assert_ne!(other, whole, "one is not named yet");
+        other.merge_non_finite(1, &[NonFinite { row_column: [5, 5], sample: 60 }]);
+        assert_eq!(other, whole);
+    }
+
+    #[test]
+    #[should_panic(expected = "sums of")]
+    fn sums_must_be_as_many_as_pixels() {
+        let mut film = Film::new(8, 8);
+        film.merge_sums(Crop { origin: [0, 0], size: [2, 2] }, &[PixelSums::default(); 3]);
     }
 
     #[test]

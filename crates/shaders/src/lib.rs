@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 pub mod camera;
+pub mod film;
 pub mod layout;
 pub mod medium;
 pub mod tables;

@@ -59,6 +59,7 @@ impl PixelSums {
             samples,
             hits,
             saturated,
+            unused: _,
         } = *self;
         let mut words = [0; WORDS];
         let long = radiance.into_iter().chain([luminance]).chain(albedo).chain(normal).chain(position);
@@ -90,6 +91,7 @@ impl PixelSums {
             samples: *samples,
             hits: *hits,
             saturated: *saturated,
+            unused: [0; 3],
         }
     }
 }
