@@ -29,6 +29,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('info', 'info', [CompletionResultType]::ParameterValue, 'Say what a scene holds, what it takes, and why its picture might be black')
             [CompletionResult]::new('compare', 'compare', [CompletionResultType]::ParameterValue, 'Measure how much a picture differs from a reference')
             [CompletionResult]::new('merge', 'merge', [CompletionResultType]::ParameterValue, 'Add parts of one render, made apart, to the picture of one run')
+            [CompletionResult]::new('devices', 'devices', [CompletionResultType]::ParameterValue, 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks')
             [CompletionResult]::new('completions', 'completions', [CompletionResultType]::ParameterValue, 'Print what makes a shell complete the flags of this program')
             [CompletionResult]::new('man', 'man', [CompletionResultType]::ParameterValue, 'Print the manual page, or write one for each command')
             [CompletionResult]::new('help', 'help', [CompletionResultType]::ParameterValue, 'Print this message or the help of the given subcommand(s)')
@@ -71,7 +72,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('--env', '--env', [CompletionResultType]::ParameterName, 'A latitude-longitude picture of radiance around the scene: .hdr or .exr. Its centre lies at -z')
             [CompletionResult]::new('--env-rotate', '--env-rotate', [CompletionResultType]::ParameterName, 'Turns that picture to the right as seen from inside, degrees')
             [CompletionResult]::new('--env-strength', '--env-strength', [CompletionResultType]::ParameterName, 'Factor on its radiance')
-            [CompletionResult]::new('--device', '--device', [CompletionResultType]::ParameterName, 'Where to render')
+            [CompletionResult]::new('--device', '--device', [CompletionResultType]::ParameterName, 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them')
             [CompletionResult]::new('--threads', '--threads', [CompletionResultType]::ParameterName, 'Threads. [default: one for each processor]')
             [CompletionResult]::new('--memory-limit', '--memory-limit', [CompletionResultType]::ParameterName, 'Refuse a picture that takes more memory than this: bytes, or with K, M, G or T, powers of 1024. [default: what the system has]')
             [CompletionResult]::new('--progress', '--progress', [CompletionResultType]::ParameterName, 'How to show progress')
@@ -94,6 +95,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('--max-instances', '--max-instances', [CompletionResultType]::ParameterName, 'Meshes that the nodes place in the world. [default: 16777216]')
             [CompletionResult]::new('--max-node-depth', '--max-node-depth', [CompletionResultType]::ParameterName, 'Nodes beneath one another. [default: 1048576]')
             [CompletionResult]::new('--keep-sums', '--keep-sums', [CompletionResultType]::ParameterName, 'An .exr carries the exact sums of its samples (about 150 bytes a pixel before compression), so that `lumbre merge` can add more; --first-sample implies it')
+            [CompletionResult]::new('--validation', '--validation', [CompletionResultType]::ParameterName, 'Lets Vulkan''s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program')
             [CompletionResult]::new('--stats', '--stats', [CompletionResultType]::ParameterName, 'At the end, say in a table what took how much time and memory; with --progress json as part of the last line')
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
@@ -157,6 +159,12 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             break
         }
+        'lumbre;devices' {
+            [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Prints one JSON object; memory in bytes')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help')
+            break
+        }
         'lumbre;completions' {
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help')
@@ -172,6 +180,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('info', 'info', [CompletionResultType]::ParameterValue, 'Say what a scene holds, what it takes, and why its picture might be black')
             [CompletionResult]::new('compare', 'compare', [CompletionResultType]::ParameterValue, 'Measure how much a picture differs from a reference')
             [CompletionResult]::new('merge', 'merge', [CompletionResultType]::ParameterValue, 'Add parts of one render, made apart, to the picture of one run')
+            [CompletionResult]::new('devices', 'devices', [CompletionResultType]::ParameterValue, 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks')
             [CompletionResult]::new('completions', 'completions', [CompletionResultType]::ParameterValue, 'Print what makes a shell complete the flags of this program')
             [CompletionResult]::new('man', 'man', [CompletionResultType]::ParameterValue, 'Print the manual page, or write one for each command')
             [CompletionResult]::new('help', 'help', [CompletionResultType]::ParameterValue, 'Print this message or the help of the given subcommand(s)')
@@ -187,6 +196,9 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             break
         }
         'lumbre;help;merge' {
+            break
+        }
+        'lumbre;help;devices' {
             break
         }
         'lumbre;help;completions' {

@@ -22,6 +22,9 @@ _lumbre() {
             lumbre,completions)
                 cmd="lumbre__subcmd__completions"
                 ;;
+            lumbre,devices)
+                cmd="lumbre__subcmd__devices"
+                ;;
             lumbre,help)
                 cmd="lumbre__subcmd__help"
                 ;;
@@ -42,6 +45,9 @@ _lumbre() {
                 ;;
             lumbre__subcmd__help,completions)
                 cmd="lumbre__subcmd__help__subcmd__completions"
+                ;;
+            lumbre__subcmd__help,devices)
+                cmd="lumbre__subcmd__help__subcmd__devices"
                 ;;
             lumbre__subcmd__help,help)
                 cmd="lumbre__subcmd__help__subcmd__help"
@@ -65,7 +71,7 @@ _lumbre() {
 
     case "${cmd}" in
         lumbre)
-            opts="-h -V --help --version render info compare merge completions man help"
+            opts="-h -V --help --version render info compare merge devices completions man help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -126,8 +132,22 @@ _lumbre() {
             COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
             return 0
             ;;
+        lumbre__subcmd__devices)
+            opts="-h --json --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
         lumbre__subcmd__help)
-            opts="render info compare merge completions man help"
+            opts="render info compare merge devices completions man help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -155,6 +175,20 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__help__subcmd__completions)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        lumbre__subcmd__help__subcmd__devices)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
@@ -421,7 +455,7 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__render)
-            opts="-o -h --output --size --background --first-sample --keep-sums --exposure --tone --vignette --aberration --quality --spp --time --target-error --save-every --max-depth --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --camera --look-from --look-at --fov --aperture --focus --crop --sky --sun --env --env-rotate --env-strength --device --threads --memory-limit --progress --stats --pixel --sample --scene --variant --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
+            opts="-o -h --output --size --background --first-sample --keep-sums --exposure --tone --vignette --aberration --quality --spp --time --target-error --save-every --max-depth --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --camera --look-from --look-at --fov --aperture --focus --crop --sky --sun --env --env-rotate --env-strength --device --validation --threads --memory-limit --progress --stats --pixel --sample --scene --variant --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -572,7 +606,7 @@ _lumbre() {
                     return 0
                     ;;
                 --device)
-                    COMPREPLY=($(compgen -W "auto cpu" -- "${cur}"))
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --threads)

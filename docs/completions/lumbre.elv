@@ -26,6 +26,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand info 'Say what a scene holds, what it takes, and why its picture might be black'
             cand compare 'Measure how much a picture differs from a reference'
             cand merge 'Add parts of one render, made apart, to the picture of one run'
+            cand devices 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
             cand completions 'Print what makes a shell complete the flags of this program'
             cand man 'Print the manual page, or write one for each command'
             cand help 'Print this message or the help of the given subcommand(s)'
@@ -67,7 +68,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand --env 'A latitude-longitude picture of radiance around the scene: .hdr or .exr. Its centre lies at -z'
             cand --env-rotate 'Turns that picture to the right as seen from inside, degrees'
             cand --env-strength 'Factor on its radiance'
-            cand --device 'Where to render'
+            cand --device 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them'
             cand --threads 'Threads. [default: one for each processor]'
             cand --memory-limit 'Refuse a picture that takes more memory than this: bytes, or with K, M, G or T, powers of 1024. [default: what the system has]'
             cand --progress 'How to show progress'
@@ -90,6 +91,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand --max-instances 'Meshes that the nodes place in the world. [default: 16777216]'
             cand --max-node-depth 'Nodes beneath one another. [default: 1048576]'
             cand --keep-sums 'An .exr carries the exact sums of its samples (about 150 bytes a pixel before compression), so that `lumbre merge` can add more; --first-sample implies it'
+            cand --validation 'Lets Vulkan''s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program'
             cand --stats 'At the end, say in a table what took how much time and memory; with --progress json as part of the last line'
             cand -h 'Print help (see more with ''--help'')'
             cand --help 'Print help (see more with ''--help'')'
@@ -149,6 +151,11 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand -h 'Print help (see more with ''--help'')'
             cand --help 'Print help (see more with ''--help'')'
         }
+        &'lumbre;devices'= {
+            cand --json 'Prints one JSON object; memory in bytes'
+            cand -h 'Print help'
+            cand --help 'Print help'
+        }
         &'lumbre;completions'= {
             cand -h 'Print help'
             cand --help 'Print help'
@@ -162,6 +169,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand info 'Say what a scene holds, what it takes, and why its picture might be black'
             cand compare 'Measure how much a picture differs from a reference'
             cand merge 'Add parts of one render, made apart, to the picture of one run'
+            cand devices 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
             cand completions 'Print what makes a shell complete the flags of this program'
             cand man 'Print the manual page, or write one for each command'
             cand help 'Print this message or the help of the given subcommand(s)'
@@ -173,6 +181,8 @@ set edit:completion:arg-completer[lumbre] = {|@words|
         &'lumbre;help;compare'= {
         }
         &'lumbre;help;merge'= {
+        }
+        &'lumbre;help;devices'= {
         }
         &'lumbre;help;completions'= {
         }

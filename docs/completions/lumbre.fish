@@ -30,6 +30,7 @@ complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "render" -d 'Render a 
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "info" -d 'Say what a scene holds, what it takes, and why its picture might be black'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "compare" -d 'Measure how much a picture differs from a reference'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
+complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "devices" -d 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "man" -d 'Print the manual page, or write one for each command'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
@@ -78,8 +79,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l sun -d 'A sun: 
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l env -d 'A latitude-longitude picture of radiance around the scene: .hdr or .exr. Its centre lies at -z' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l env-rotate -d 'Turns that picture to the right as seen from inside, degrees' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l env-strength -d 'Factor on its radiance' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l device -d 'Where to render' -r -f -a "auto\t'The best there is'
-cpu\t'The processors of this machine'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l device -d 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l threads -d 'Threads. [default: one for each processor]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l memory-limit -d 'Refuse a picture that takes more memory than this: bytes, or with K, M, G or T, powers of 1024. [default: what the system has]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l progress -d 'How to show progress' -r -f -a "auto\t'A bar on a terminal, plain lines elsewhere'
@@ -105,6 +105,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-zero-filled
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-instances -d 'Meshes that the nodes place in the world. [default: 16777216]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-node-depth -d 'Nodes beneath one another. [default: 1048576]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l keep-sums -d 'An .exr carries the exact sums of its samples (about 150 bytes a pixel before compression), so that `lumbre merge` can add more; --first-sample implies it'
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l validation -d 'Lets Vulkan\'s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program'
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l stats -d 'At the end, say in a table what took how much time and memory; with --progress json as part of the last line'
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l size -d 'Size of the picture whose memory is predicted' -r
@@ -152,12 +153,15 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l max-instances -d
 complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l max-node-depth -d 'Nodes beneath one another. [default: 1048576]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l keep-sums -d 'The .exr carries the exact sums, so that it can be merged again'
 complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c lumbre -n "__fish_lumbre_using_subcommand devices" -l json -d 'Prints one JSON object; memory in bytes'
+complete -c lumbre -n "__fish_lumbre_using_subcommand devices" -s h -l help -d 'Print help'
 complete -c lumbre -n "__fish_lumbre_using_subcommand completions" -s h -l help -d 'Print help'
 complete -c lumbre -n "__fish_lumbre_using_subcommand man" -s h -l help -d 'Print help'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge completions man help" -f -a "render" -d 'Render a scene to a picture'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge completions man help" -f -a "info" -d 'Say what a scene holds, what it takes, and why its picture might be black'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge completions man help" -f -a "compare" -d 'Measure how much a picture differs from a reference'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge completions man help" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge completions man help" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge completions man help" -f -a "man" -d 'Print the manual page, or write one for each command'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge completions man help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "render" -d 'Render a scene to a picture'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "info" -d 'Say what a scene holds, what it takes, and why its picture might be black'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "compare" -d 'Measure how much a picture differs from a reference'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "devices" -d 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "man" -d 'Print the manual page, or write one for each command'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'

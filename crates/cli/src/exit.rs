@@ -1,10 +1,10 @@
 //! How a command ends: the codes (after BSD's sysexits.h where it has a fitting one) and the failures that carry them.
 
 use crate::flags::loading::flag_of;
-use lumbre::DeviceError;
 use lumbre::compare::CompareError;
 use lumbre::io::{ErrorKind, IoError};
 use lumbre::scene::CompileError;
+use lumbre::{DeviceError, RenderError};
 use std::fmt::Display;
 use std::process::ExitCode;
 
@@ -21,6 +21,8 @@ pub(crate) enum Code {
     BadData = 65,
     /// A file cannot be opened.
     CannotOpen = 66,
+    /// A GPU was asked for and cannot be had, or failed; a picture that has begun is written as far as it came.
+    Unavailable = 69,
     /// A bug of this program.
     Bug = 70,
     /// Too little memory, seen before the work began.
@@ -72,7 +74,16 @@ impl From<IoError> for Failure {
 
 impl From<DeviceError> for Failure {
     fn from(e: DeviceError) -> Self {
-        Self::usage(e)
+        match e {
+            DeviceError::SimdLevel(_) => Self::usage(e),
+            DeviceError::Unavailable { .. } => Self::new(Code::Unavailable, e),
+        }
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(e: RenderError) -> Self {
+        Self::new(Code::Unavailable, e)
     }
 }
 

@@ -3,6 +3,8 @@
 
 mod compare;
 mod console;
+mod device;
+mod devices;
 mod exit;
 mod flags;
 mod generate;
@@ -37,6 +39,7 @@ fn run(command: Command) -> Result<Code, Failure> {
     match command {
         Command::Render(mut args) => render::run(&mut args),
         Command::Info(args) => info::run(&args),
+        Command::Devices(args) => devices::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man(args) => generate::man(&args),

@@ -77,7 +77,7 @@ fn fits(all: u64, more: u64, what: &str, limit: Option<u64>) -> Result<(), Failu
 
 /// Bytes that can still be taken; `None` where the system does not say. Linux says in files; macOS and Windows only through calls into
 /// C, which this program does without: there `--memory-limit` is the guard.
-fn available() -> Option<u64> {
+pub(crate) fn available() -> Option<u64> {
     let system = fs::read_to_string("/proc/meminfo").ok().and_then(|t| kilobytes(&t, "MemAvailable:"));
     system.into_iter().chain(cgroup_room()).min()
 }

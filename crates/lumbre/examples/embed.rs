@@ -8,7 +8,7 @@ use lumbre::scene::{Background, Camera as SceneCamera, CameraId, Material, Mesh,
 use lumbre::{Ended, Targets, Watched};
 use std::time::Duration;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
     // What is to be seen.
     let scene = scene();
     let compiled = lumbre::compile(&scene)?.scene;

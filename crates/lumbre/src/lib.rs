@@ -36,7 +36,8 @@
 //! # Features
 //!
 //! `files` (on by default) reads and writes files: [`load_scene`], [`info()`], [`output`], [`merge`]. Without it there is the
-//! renderer alone, with few dependencies.
+//! renderer alone, with few dependencies. `vulkan` (on by default) draws on GPUs; Vulkan itself is loaded at run time, and a
+//! machine without it draws on the CPU.
 #![forbid(unsafe_code)]
 
 pub mod backend;

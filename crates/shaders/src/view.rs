@@ -39,6 +39,8 @@ pub struct ViewTable {
     pub camera: CameraRecord,
     /// The media around it.
     pub media: MediumStackRecord,
+    /// Nothing: keeps the addresses aligned.
+    pub unused: u32,
 }
 
 /// Push constants of the path tracer.

@@ -2,6 +2,8 @@
 
 pub(crate) mod camera;
 pub(crate) mod compare;
+pub(crate) mod device;
+pub(crate) mod devices;
 pub(crate) mod generate;
 pub(crate) mod info;
 pub(crate) mod light;
@@ -52,6 +54,9 @@ pub(crate) enum Command {
     /// Add parts of one render, made apart, to the picture of one run.
     #[command(after_help = merge::EXAMPLES)]
     Merge(Box<merge::MergeArgs>),
+    /// List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks.
+    #[command(after_help = devices::EXAMPLES)]
+    Devices(devices::DevicesArgs),
     /// Print what makes a shell complete the flags of this program.
     #[command(after_help = generate::COMPLETIONS_EXAMPLES)]
     Completions(generate::CompletionsArgs),

@@ -1,27 +1,9 @@
-//! Flags on how the program runs: device, threads, memory, progress. None of them changes the picture.
+//! Flags on how the program runs: device, threads, memory, progress. None of them changes the picture but for the last bits of a
+//! number, which a GPU rounds in its own way.
 
+use super::device::DeviceArgs;
 use super::values::bytes;
 use clap::{Args, ValueEnum};
-use lumbre::Device;
-
-/// Kinds of devices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum DeviceFlag {
-    /// The best there is
-    Auto,
-    /// The processors of this machine
-    Cpu,
-}
-
-impl DeviceFlag {
-    /// The same in the library's terms, and why it is taken.
-    pub(crate) fn choose(self) -> (Device, &'static str) {
-        match self {
-            DeviceFlag::Auto => (Device::Auto, "auto: the only kind of device so far"),
-            DeviceFlag::Cpu => (Device::Cpu, "as --device asks"),
-        }
-    }
-}
 
 /// Ways to show progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -40,14 +22,8 @@ pub(crate) enum ProgressFlag {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Running")]
 pub(crate) struct RunArgs {
-    /// Where to render.
-    #[arg(long, default_value = "auto")]
-    pub(crate) device: DeviceFlag,
-
-    /// Threads. [default: one for each processor]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) device: DeviceArgs,
 
     /// Refuse a picture that takes more memory than this: bytes, or with K, M, G or T, powers of 1024. [default: what the
     /// system has]

@@ -10,11 +10,11 @@ use crate::flags::values::Size;
 use crate::{console, memory};
 use lumbre::core::Film;
 use lumbre::io::{Description, ErrorKind, SceneChoice, describe_scene};
-use lumbre::{Device, InfoError, SceneInfo};
+use lumbre::{Device, GpuOptions, InfoError, SceneInfo};
 
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<Code, Failure> {
-    Device::Cpu.check()?;
+    Device::Cpu.open(&GpuOptions::default())?;
     let options = args.loading.options();
     let description = describe_scene(&args.scene, &options)?;
     let opened = lumbre::load_scene(&args.scene, &options);

@@ -3,7 +3,7 @@
 //! later on what every pixel has got.
 
 use super::{Finish, Moment, Start, plain};
-use lumbre::Ended;
+use lumbre::{Ended, PassTime};
 use serde_json::{Value, json};
 
 pub(super) fn start(s: &Start) -> String {
@@ -40,12 +40,13 @@ pub(super) fn finish(s: &Start, f: &Finish) -> String {
     let done = &f.outcome;
     let mut line = json!({
         "event": "done",
-        "interrupted": done.ended == Ended::Cancelled,
+        "interrupted": matches!(done.ended, Ended::Cancelled | Ended::Failed),
         "ended_by": match done.ended {
             Ended::Spp => "spp",
             Ended::Time => "time",
             Ended::Error => "error",
             Ended::Cancelled => "interrupt",
+            Ended::Failed => "device",
         },
         "error": done.error,
         "load_seconds": f.load_seconds,
@@ -75,7 +76,9 @@ pub(super) fn finish(s: &Start, f: &Finish) -> String {
             "msamples_per_second": plain::millions_per_second(done.progress.samples, done.seconds),
             "rays_per_sample": stats.rays_per_sample(f),
         });
-        line.insert("stats".into(), json!({ "memory": memory, "speed": speed }));
+        let pass = |p: &PassTime| json!({ "name": p.name, "count": p.count, "mean_ms": p.mean_ms() });
+        let passes: Vec<Value> = stats.passes.iter().map(pass).collect();
+        line.insert("stats".into(), json!({ "memory": memory, "speed": speed, "gpu_passes": passes }));
     }
     line.to_string()
 }

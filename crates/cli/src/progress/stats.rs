@@ -2,11 +2,14 @@
 
 use super::{Finish, plain};
 use crate::memory::human;
+use lumbre::PassTime;
 
 /// What is only looked up when it is asked for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Stats {
     pub(crate) memory: Memory,
+    /// By the clock of a GPU; empty without one.
+    pub(crate) passes: Vec<PassTime>,
 }
 
 /// Bytes.
@@ -32,7 +35,7 @@ impl Stats {
         let (done, m) = (&f.outcome, &self.memory);
         let speed = |n: u64| plain::millions_per_second(n, done.seconds);
         let seconds = |s: f64| format!("{s:.2} s");
-        let rows = [
+        let fixed = [
             ("load", seconds(f.load_seconds)),
             ("build", seconds(f.build_seconds)),
             ("render", seconds(done.seconds)),
@@ -49,8 +52,14 @@ impl Stats {
             ("Mrays/s", format!("{:.2}", speed(done.progress.rays))),
             ("estimated error", plain::error(done.error)),
         ];
+        let passes = self
+            .passes
+            .iter()
+            .map(|p| (format!("GPU ms of `{}`, {} times", p.name, p.count), format!("{:.3}", p.mean_ms())));
+        let rows: Vec<(String, String)> =
+            fixed.map(|(name, value)| (name.to_string(), value)).into_iter().chain(passes).collect();
         let width = |texts: &mut dyn Iterator<Item = &str>| texts.map(str::len).max().unwrap_or(0);
-        let names = width(&mut rows.iter().map(|r| r.0));
+        let names = width(&mut rows.iter().map(|r| r.0.as_str()));
         let values = width(&mut rows.iter().map(|r| r.1.as_str()));
         rows.iter().map(|(name, value)| format!("  {name:names$}  {value:>values$}")).collect()
     }
@@ -64,11 +73,13 @@ mod tests {
     #[test]
     fn columns_are_aligned() {
         let memory = Memory { scene: 5 << 20, acceleration: 1 << 30, film: 1000, peak: None };
-        let stats = Stats { memory };
-        let table = stats.table(&Finish { stats: Some(stats), ..finished() });
+        let trace = PassTime { name: "trace".into(), count: 8, total_ms: 10.0 };
+        let stats = Stats { memory, passes: vec![trace] };
+        let table = stats.table(&finished());
         assert!(table.iter().all(|l| l.len() == table[0].len()), "{table:#?}");
         let row = |name: &str| table.iter().find(|l| l.contains(name)).unwrap();
         assert!(row("of the acceleration").ends_with(" 1.0 GiB") && row("at most").ends_with(" not known"));
         assert!(row("rays per camera sample").ends_with(" 2.25"));
+        assert!(row("GPU ms of `trace`, 8 times").ends_with(" 1.250"));
     }
 }

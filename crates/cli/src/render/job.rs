@@ -14,7 +14,7 @@ use lumbre::core::control::Control;
 use lumbre::core::film::Crop;
 use lumbre::fingerprint::{Fingerprint, SceneHash};
 use lumbre::prelude::*;
-use lumbre::{Ended, Estimator, SoFar, Watch};
+use lumbre::{Ended, Estimator, RenderError, RenderFailed, SoFar, Watch};
 use std::sync::atomic::AtomicBool;
 use std::thread;
 use std::time::Instant;
@@ -60,23 +60,25 @@ impl Job<'_> {
             report::chosen(&targets);
         }
         let reporter = Reporter::begin(self.args.run.progress, start)?;
-        let outcome =
-            self.render(prepared.backend, &targets, &mut film, &Watchers { cancel, reporter: &reporter });
+        let watchers = Watchers { cancel, reporter: &reporter };
+        let rendered = self.render(prepared.backend, &targets, &mut film, &watchers);
         reporter.rendered();
         interrupt::enter(Phase::Writing);
 
-        let interrupted = outcome.ended == Ended::Cancelled;
-        if interrupted && outcome.progress.samples == 0 {
-            return Err(Failure::new(
-                Code::Killed,
-                "interrupted before the first sample: nothing is written",
-            ));
+        let (outcome, failure) = match rendered {
+            Ok(outcome) => (outcome, None),
+            Err(RenderFailed { error, outcome }) => (outcome, Some(error)),
+        };
+        let early = matches!(outcome.ended, Ended::Cancelled | Ended::Failed);
+        if early && outcome.progress.samples == 0 {
+            return Err(nothing(failure));
         }
+        report::validation(self.args.run.device.validation, prepared.backend);
         let saturated = report::film(&film);
         report::black(&film, &self.args.scene);
         report::ended(&outcome, &targets);
         let start = Instant::now();
-        let unfinished = interrupted.then_some(outcome.progress.samples);
+        let unfinished = early.then_some(outcome.progress.samples);
         self.developed(&film, outcome.spp, unfinished, |d| self.outputs.write(d))?;
         let write_seconds = start.elapsed().as_secs_f64();
         let stats = self.args.run.stats.then(|| self.stats(prepared, &film));
@@ -89,11 +91,16 @@ impl Job<'_> {
             saturated,
             stats,
         })?;
-        if !interrupted {
-            return Ok(Code::Done);
+        let spp = outcome.spp;
+        if let Some(error) = failure {
+            let message = format!("{error}: the picture so far is written, {spp} samples per pixel");
+            return Err(Failure::new(Code::Unavailable, message));
         }
-        console::warning(format_args!("interrupted: the picture has {} samples per pixel", outcome.spp));
-        Ok(Code::Interrupted)
+        if early {
+            console::warning(format_args!("interrupted: the picture has {spp} samples per pixel"));
+            return Ok(Code::Interrupted);
+        }
+        Ok(Code::Done)
     }
 
     fn render(
@@ -102,7 +109,7 @@ impl Job<'_> {
         targets: &Targets,
         film: &mut Film,
         watchers: &Watchers<'_>,
-    ) -> Outcome {
+    ) -> Result<Outcome, RenderFailed> {
         let busy = AtomicBool::new(false);
         let save = |film: &Film, so_far: &SoFar| {
             self.developed(film, so_far.spp, Some(so_far.progress.samples), |d| self.outputs.save(d))
@@ -141,7 +148,17 @@ impl Job<'_> {
                 film: Film::bytes(film.width(), film.height()) + Estimator::bytes(pixels),
                 peak: memory::peak(),
             },
+            passes: prepared.backend.pass_times(),
         }
+    }
+}
+
+/// Why nothing is written: the device failed, or the user interrupted.
+fn nothing(failure: Option<RenderError>) -> Failure {
+    const NOTHING: &str = "before the first sample: nothing is written";
+    match failure {
+        Some(error) => Failure::new(Code::Unavailable, format!("{error} {NOTHING}")),
+        None => Failure::new(Code::Killed, format!("interrupted {NOTHING}")),
     }
 }
 
@@ -177,5 +194,8 @@ impl<S: super::saving::Save> Watch for Watching<'_, S> {
     }
     fn ends_even(&self) -> bool {
         self.ends_even
+    }
+    fn notice(&self, what: &str) {
+        console::warning(what);
     }
 }

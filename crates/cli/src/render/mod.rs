@@ -7,13 +7,16 @@ mod replay;
 mod report;
 mod saving;
 mod scene;
+#[cfg(test)]
+mod tests;
 
+use crate::device;
 use crate::exit::{Code, Failure};
 use crate::flags::render::RenderArgs;
 use crate::flags::values::Size;
+use crate::interrupt;
 use crate::memory::Picture;
 use crate::outputs::Outputs;
-use crate::{console, interrupt};
 use job::{Job, Prepared};
 use lumbre::core::film::Crop;
 use lumbre::fingerprint::SceneHash;
@@ -25,8 +28,10 @@ use std::time::Instant;
 pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
     let began = Instant::now();
     // Whatever can be known to fail is found before the work begins.
-    let (device, why) = args.run.device.choose();
-    device.check()?;
+    let device = match args.replay.pixel {
+        Some(_) => Device::Cpu.open(&args.run.device.options())?,
+        None => device::open(&args.run.device)?,
+    };
     if args.replay.pixel.is_none() && args.output.output.is_empty() {
         args.output.output.push(naming::default_output(&args.scene));
     }
@@ -37,10 +42,7 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         picture(args, &outputs, args.camera.part(size)?).check(args.run.memory_limit)?;
     }
     let cancel = interrupt::install()?;
-    let threads = args.run.threads.map_or(0, usize::from); // 0: rayon counts the processors
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|e| Failure::new(Code::Memory, format!("cannot start the threads: {e}")))?;
-    pool.install(|| {
+    device::pool(&args.run.device)?.install(|| {
         let Opened { compiled, camera, size, sky_added, load_seconds } = scene::open(args, &camera)?;
         let part = args.camera.part(size)?;
         let scene_bytes = compiled.bytes();
@@ -48,20 +50,16 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         let view = View { camera, settings: args.settings(), frame: 0 };
         let scene = args.output.keeps_sums().then(|| SceneHash::new(&compiled));
         let mut job = Job { args, outputs, view, size, part, scene, sky_added, began };
-        let say = |backend: &dyn Backend, why| {
-            console::note(format_args!("device: {} ({why})", backend.device()));
-        };
         if let Some(pixel) = args.replay.pixel {
             let backend = lumbre::prepare_cpu(compiled)?;
-            say(&backend, "--pixel always runs there");
-            scene::focus(args, &backend, &mut job.view);
+            device::said(&backend, "--pixel always runs there");
+            scene::focus(args, &backend, &mut job.view)?;
             return replay::run(&job, &backend, pixel);
         }
         let start = Instant::now();
-        let backend = lumbre::prepare(compiled, device)?;
+        let backend = device::prepare(device, compiled)?;
         let build_seconds = start.elapsed().as_secs_f64();
-        say(&*backend, why);
-        scene::focus(args, &*backend, &mut job.view);
+        scene::focus(args, &*backend, &mut job.view)?;
         job.picture(&Prepared { backend: &*backend, load_seconds, build_seconds, scene_bytes }, &cancel)
     })
 }

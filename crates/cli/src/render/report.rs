@@ -3,7 +3,7 @@
 use crate::console;
 use crate::progress::plain::{duration, error};
 use lumbre::core::Film;
-use lumbre::{Ended, Outcome, Targets};
+use lumbre::{Backend, Ended, Outcome, Targets};
 use std::env;
 use std::ffi::OsString;
 use std::path::Path;
@@ -23,7 +23,7 @@ pub(super) fn chosen(targets: &Targets) {
 /// Says why it stopped, where that was not clear from the beginning, and how good the picture is.
 pub(super) fn ended(outcome: &Outcome, targets: &Targets) {
     let why = match outcome.ended {
-        Ended::Cancelled => return,
+        Ended::Cancelled | Ended::Failed => return,
         Ended::Spp if targets.time.is_none() && targets.error.is_none() => "",
         Ended::Spp => "all samples taken: ",
         Ended::Time => "time is up: ",
@@ -31,6 +31,15 @@ pub(super) fn ended(outcome: &Outcome, targets: &Targets) {
     };
     let error = error(outcome.error);
     console::note(format_args!("{why}{} samples per pixel, estimated error {error}", outcome.spp));
+}
+
+/// Says what the validation layer had to say, if it was asked.
+pub(super) fn validation(asked: bool, backend: &dyn Backend) {
+    let complaints = backend.complaints();
+    complaints.iter().for_each(|c| console::warning(format_args!("validation: {}", c.replace('\n', " "))));
+    if asked && complaints.is_empty() {
+        console::note("validation: no complaints");
+    }
 }
 
 /// Reports on a film; returns how many sums ran out of range.

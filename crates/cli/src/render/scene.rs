@@ -1,6 +1,7 @@
 //! Opens what is to be rendered: the scene, the light from far away, the camera and the size of the picture.
 
 use crate::console;
+use crate::device;
 use crate::exit::Failure;
 use crate::flags::light::LightArgs;
 use crate::flags::render::RenderArgs;
@@ -50,18 +51,18 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
 }
 
 /// Focuses an open lens on the centre of the picture, unless the flags say a distance.
-pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, view: &mut View) {
+pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, view: &mut View) -> Result<(), Failure> {
     if args.camera.aperture.is_none() {
-        return;
+        return Ok(());
     }
     let orthographic = matches!(view.camera.projection, Projection::Orthographic { .. });
     if orthographic && matches!(args.camera.aperture, Some(Aperture::FNumber(_))) {
         console::warning("--aperture f/N means nothing to an orthographic camera: a diameter in metres does");
     }
     if args.camera.focus.is_some_and(|f| f != Focus::Auto) {
-        return;
+        return Ok(());
     }
-    match lumbre::focus_distance(backend, view, [0.5, 0.5]) {
+    match device::surely(backend, || lumbre::focus_distance(backend, view, [0.5, 0.5]))? {
         Some(metres) => {
             view.camera.focus_distance = metres;
             console::note(format_args!("focus: {metres:.3} m, the centre of the picture"));
@@ -71,6 +72,7 @@ pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, view: &mut View) {
             console::note("focus: far away; nothing lies in the centre of the picture (--focus D)");
         }
     }
+    Ok(())
 }
 
 /// Distance that stands for infinity, metres: a lens of a metre blurs less than a pixel of what is beyond.

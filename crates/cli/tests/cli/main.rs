@@ -4,6 +4,7 @@
 mod camera;
 mod common;
 mod compare;
+mod devices;
 mod generated;
 mod info;
 mod interrupt;

@@ -23,7 +23,7 @@ pub enum GpuChoice {
     /// equals that with the most memory.
     #[default]
     Best,
-    /// By its place in the order in which Vulkan lists them, from 0.
+    /// By its place in the list of [`devices`](crate::devices), the best first, from 0.
     Index(usize),
     /// The first whose name is this, or the best whose name holds it; case does not matter.
     Name(String),

@@ -73,6 +73,10 @@ impl Backend for Fallback {
         self.state().current.pass_times()
     }
 
+    fn complaints(&self) -> Vec<String> {
+        self.state().current.complaints()
+    }
+
     fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, RenderError> {
         self.state().current.frames(view, size, spp, count)
     }

@@ -37,7 +37,7 @@ pub struct DeviceInfo {
     pub lacks: Vec<String>,
 }
 
-/// The devices of this machine, the CPU first, then all that Vulkan lists, in its order.
+/// The devices of this machine, the CPU first, then all that Vulkan lists, the best first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Devices {
     /// The devices; never empty.

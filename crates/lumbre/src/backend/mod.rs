@@ -8,7 +8,7 @@ pub mod fallback;
 pub mod frames;
 pub mod list;
 pub mod open;
-#[path = "without_vulkan.rs"]
+#[cfg_attr(not(feature = "vulkan"), path = "without_vulkan.rs")]
 mod vulkan;
 
 pub use device::{Device, DeviceError, GpuChoice};
@@ -69,6 +69,11 @@ pub trait Backend: Send + Sync {
 
     /// What the passes of the device took since the scene was prepared, by its own clock; empty where it has none.
     fn pass_times(&self) -> Vec<PassTime> {
+        Vec::new()
+    }
+
+    /// What a validation layer that was asked for ([`GpuOptions::validation`]) has said so far, the oldest first.
+    fn complaints(&self) -> Vec<String> {
         Vec::new()
     }
 

@@ -1,22 +1,15 @@
 //! From what is asked for to a device that is there, before there is a scene, and from there to a backend.
 
 use super::vulkan::{self, Gpu};
-use super::{Backend, Device, DeviceError, Fallback, RenderError, cpu_name, devices, prepare_cpu};
-use lumbre_core::Film;
-use lumbre_core::control::{Control, Progress};
-use lumbre_core::settings::View;
+use super::{Backend, Device, DeviceError, Fallback, cpu_name, devices, prepare_cpu};
 use lumbre_cpu::bvh::SimdLevel;
 use lumbre_scene::CompiledScene;
-use std::ops::Range;
-use std::sync::atomic::{AtomicU32, Ordering};
 
 /// How a GPU is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GpuOptions {
     /// Vulkan's validation layer looks over every call: slow, for those who change the backend.
     pub validation: bool,
-    /// For tests: the GPU counts as lost after so many renders.
-    pub lose_after: Option<u32>,
 }
 
 /// A device that can be used.
@@ -26,7 +19,6 @@ pub struct OpenDevice {
     why: String,
     notes: Vec<String>,
     asked: Device,
-    options: GpuOptions,
 }
 
 enum Kind {
@@ -57,7 +49,6 @@ impl Device {
             why,
             notes: Vec::new(),
             asked: self.clone(),
-            options: *options,
         };
         if *self == Device::Cpu {
             return Ok(cpu("as --device asks".into()));
@@ -71,8 +62,7 @@ impl Device {
         }
         match vulkan::open(&taken.device, options) {
             Ok((gpu, notes)) => {
-                let (kind, name, options) = (Kind::Gpu(gpu), taken.name.clone(), *options);
-                Ok(OpenDevice { kind, name, why, notes, asked, options })
+                Ok(OpenDevice { kind: Kind::Gpu(gpu), name: taken.name.clone(), why, notes, asked })
             }
             Err(reason) if *self == Device::Auto => Ok(cpu(format!("auto: {}: {reason}", taken.name))),
             Err(reason) => Err(unavailable(format!("{}: {reason}", taken.name))),
@@ -110,7 +100,6 @@ impl OpenDevice {
         let first = vulkan::prepare(gpu, &scene);
         match (first, self.asked) {
             (Ok(first), asked) => {
-                let first = losing(first, self.options.lose_after);
                 let backend: Box<dyn Backend> = match asked {
                     Device::Auto => Box::new(Fallback::new(first, move || Ok(Box::new(prepare_cpu(scene)?)))),
                     _ => first,
@@ -131,54 +120,10 @@ fn on_cpu(scene: CompiledScene, failed: Option<String>) -> Result<Prepared, Devi
     Ok(Prepared { backend, note })
 }
 
-/// Makes a backend fail after some renders.
-fn losing(inner: Box<dyn Backend>, after: Option<u32>) -> Box<dyn Backend> {
-    match after {
-        None => inner,
-        Some(renders) => Box::new(Losing { inner, left: AtomicU32::new(renders) }),
-    }
-}
-
-/// A device that is lost after some renders.
-struct Losing {
-    inner: Box<dyn Backend>,
-    left: AtomicU32,
-}
-
-impl Backend for Losing {
-    fn device(&self) -> String {
-        self.inner.device()
-    }
-
-    fn memory(&self) -> u64 {
-        self.inner.memory()
-    }
-
-    fn render(
-        &self,
-        view: &View,
-        samples: Range<u32>,
-        film: &mut Film,
-        control: &dyn Control,
-    ) -> Result<Progress, RenderError> {
-        let one_less = |left: u32| left.checked_sub(1);
-        match self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_less) {
-            Ok(_) => self.inner.render(view, samples, film, control),
-            Err(_) => Err(RenderError { device: self.device(), reason: "lost, as a test asks".into() }),
-        }
-    }
-
-    fn pass_times(&self) -> Vec<super::PassTime> {
-        self.inner.pass_times()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{GpuChoice, Targets, render};
-    use lumbre_core::Camera;
-    use lumbre_core::settings::RenderSettings;
+    use crate::GpuChoice;
     use lumbre_scene::{Scene, compile};
 
     fn empty() -> CompiledScene {
@@ -208,20 +153,5 @@ mod tests {
         let asked = Device::Gpu(GpuChoice::Name("Voodoo 2".into()));
         let Err(error) = asked.open(&GpuOptions::default()) else { panic!("a Voodoo 2 in this machine") };
         assert!(error.to_string().starts_with("no GPU for `Voodoo 2`: "), "{error}");
-    }
-
-    #[test]
-    fn a_device_is_lost_when_a_test_asks_for_it() {
-        let cpu = || on_cpu(empty(), None).unwrap().backend;
-        let camera = Camera::look_at(glam::Vec3::ZERO, glam::Vec3::Z, glam::Vec3::Y, 1.0, 1.0);
-        let view = View { camera, settings: RenderSettings::default(), frame: 0 };
-        let spp = |backend: Box<dyn Backend>| {
-            render(&*backend, &view, Targets::spp(8), &mut Film::new(2, 2), &())
-                .map(|o| o.spp)
-                .map_err(|e| (e.outcome.spp, e.error.reason))
-        };
-        assert_eq!(spp(losing(cpu(), None)), Ok(8));
-        assert_eq!(spp(losing(cpu(), Some(1000))), Ok(8));
-        assert_eq!(spp(losing(cpu(), Some(2))), Err((2, "lost, as a test asks".into())));
     }
 }

@@ -1,0 +1,58 @@
+//! Opens what renders, and the threads beside it.
+
+use crate::console;
+use crate::exit::{Code, Failure};
+use crate::flags::device::DeviceArgs;
+use lumbre::rayon::{ThreadPool, ThreadPoolBuilder};
+use lumbre::scene::CompiledScene;
+use lumbre::{Backend, OpenDevice};
+
+/// Opens the device that is asked for, and says what there is to say of it.
+pub(crate) fn open(args: &DeviceArgs) -> Result<OpenDevice, Failure> {
+    let open = args.device.open(&args.options())?;
+    open.notes().iter().for_each(console::warning);
+    if args.validation && !open.is_gpu() {
+        console::warning("--validation: there is nothing to validate without a GPU");
+    }
+    Ok(open)
+}
+
+/// Brings a scene to the device, and says in one line where it went and why.
+pub(crate) fn prepare(open: OpenDevice, scene: CompiledScene) -> Result<Box<dyn Backend>, Failure> {
+    let why = open.why().to_owned();
+    let prepared = open.prepare(scene)?;
+    let why = match prepared.note {
+        Some(note) => {
+            console::warning(&note);
+            "auto: the GPU failed".into()
+        }
+        None => why,
+    };
+    said(&*prepared.backend, &why);
+    Ok(prepared.backend)
+}
+
+/// The line that says what renders.
+pub(crate) fn said(backend: &dyn Backend, why: &str) {
+    console::note(format_args!("device: {} ({why})", backend.device()));
+}
+
+/// The threads that work.
+pub(crate) fn pool(args: &DeviceArgs) -> Result<ThreadPool, Failure> {
+    let threads = args.threads.map_or(0, usize::from); // 0: rayon counts the processors
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|e| Failure::new(Code::Memory, format!("cannot start the threads: {e}")))
+}
+
+/// Does a piece of work again on another device where the first one fails and there is another.
+pub(crate) fn surely<T>(
+    backend: &dyn Backend,
+    work: impl Fn() -> Result<T, lumbre::RenderError>,
+) -> Result<T, Failure> {
+    loop {
+        match work() {
+            Ok(done) => return Ok(done),
+            Err(e) => console::warning(backend.recover(e)?),
+        }
+    }
+}
