@@ -41,6 +41,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Vie
     CameraRecord camera;
     // The media around the camera.
     MediumStack media;
+    uint unused;
 };
 
 layout(push_constant, scalar) uniform Push {
