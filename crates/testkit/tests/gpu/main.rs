@@ -1,0 +1,4 @@
+//! The GPU draws what the CPU draws.
+
+mod common;
+mod paired;
