@@ -1,0 +1,3 @@
+//! The GPU against the CPU.
+
+mod hits;
