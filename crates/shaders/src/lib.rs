@@ -8,6 +8,7 @@ pub mod camera;
 pub mod film;
 pub mod layout;
 pub mod medium;
+pub mod replay;
 pub mod tables;
 pub mod view;
 

@@ -1,4 +1,5 @@
-//! The GPU draws what the CPU draws.
+//! The GPU against the CPU: hits, then whole paths.
 
 mod common;
+mod hits;
 mod paired;
