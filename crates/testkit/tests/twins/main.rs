@@ -3,7 +3,9 @@
 //! A kernel of `crates/shaders/glsl/twins` evaluates the shader's side; each file here is named after the kernel and evaluates
 //! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
 
+mod columns;
 mod hash;
+mod math;
 
 use bytemuck::Pod;
 use lumbre_vulkan::Specialisation;
