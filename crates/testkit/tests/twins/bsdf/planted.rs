@@ -1,0 +1,1 @@
+//! What a wrong parameter on one side leads to.
