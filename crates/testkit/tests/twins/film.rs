@@ -91,7 +91,11 @@ fn start(n: &mut Numbers) -> PixelSums {
             words[30..34].fill(u32::MAX);
         }
         let samples = n.below(1 << 30);
-        words[34..].copy_from_slice(&[samples, n.below(samples + 1), n.one_of(&[0, 5, u32::MAX - 3, u32::MAX])]);
+        words[34..].copy_from_slice(&[
+            samples,
+            n.below(samples + 1),
+            n.one_of(&[0, 5, u32::MAX - 3, u32::MAX]),
+        ]);
     }
     PixelSums::from_words(&words)
 }
@@ -170,9 +174,8 @@ fn sums_are_the_same_bits() {
 #[test]
 fn inputs_reach_the_ends() {
     let all: Vec<(Input, Output)> = inputs().into_iter().map(|i| (i, twin(&i))).collect();
-    let share = |f: fn(&(Input, Output)) -> bool| {
-        all.iter().filter(|io| f(io)).count() as f64 / all.len() as f64
-    };
+    let share =
+        |f: fn(&(Input, Output)) -> bool| all.iter().filter(|io| f(io)).count() as f64 / all.len() as f64;
     assert!((0.3..0.8).contains(&share(|(i, o)| o.sums.saturated() > i.start.saturated())));
     assert!((0.03..0.5).contains(&share(|(_, o)| o.count > 0)));
 }
