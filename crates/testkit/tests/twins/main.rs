@@ -6,8 +6,10 @@
 mod bsdf;
 mod columns;
 mod film;
+mod fresnel;
 mod hash;
 mod math;
+mod microfacet;
 mod sampler;
 
 use bytemuck::Pod;

@@ -43,7 +43,8 @@ fn inputs() -> Vec<Input> {
         Input { x, y, cosine, positive }
     });
     let specials = [0.0, -0.0, 1.0, -1.0, 0.5, -0.5, 1e-30, -1e-30, 1e-3, 0.41421356, 88.0, -87.0, 126.9];
-    let turns = (-40..40).flat_map(|k| [0, 1, 2].map(|ulp| quarter_turns(k).to_bits() + ulp).map(f32::from_bits));
+    let turns =
+        (-40..40).flat_map(|k| [0, 1, 2].map(|ulp| quarter_turns(k).to_bits() + ulp).map(f32::from_bits));
     let corners = specials.into_iter().chain(turns).map(|x| Input {
         x,
         y: if x.abs() > 20.0 { 0.0 } else { x },
@@ -100,7 +101,12 @@ fn functions_are_within_a_few_roundings() {
 fn other_arguments_are_found() {
     let inputs = inputs();
     let Some(gpu) = evaluate::<_, Output>(kernel!("math"), &[], &inputs) else { return };
-    let more = |i: &Input| Input { x: i.x * 1.001, y: i.y * 1.01, cosine: i.cosine * 0.999, positive: i.positive * 1.001 };
+    let more = |i: &Input| Input {
+        x: i.x * 1.001,
+        y: i.y * 1.01,
+        cosine: i.cosine * 0.999,
+        positive: i.positive * 1.001,
+    };
     let rust: Vec<_> = inputs.iter().map(|i| twin(&more(i))).collect();
     for column in ["sine", "cosine", "tangent", "arc cosine", "arc tangent", "exp", "exp2", "ln", "power"] {
         columns().assert_far(column, &rust, &gpu);

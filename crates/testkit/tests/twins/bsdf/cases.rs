@@ -67,7 +67,8 @@ impl Case {
     pub(super) fn input(&self) -> Input {
         let p = &self.params;
         let film = p.film.unwrap_or(FilmParams { factor: 0.0, ior: 1.0, thickness_nm: 0.0 });
-        let gloss = p.gloss.unwrap_or(GlossParams { specular: Spectrum::BLACK, exponent: 0.0, fresnel: false });
+        let gloss =
+            p.gloss.unwrap_or(GlossParams { specular: Spectrum::BLACK, exponent: 0.0, fresnel: false });
         let sheen = p.sheen.unwrap_or(SheenParams { color: Spectrum::BLACK, roughness: 1.0 });
         let coat = p.coat.unwrap_or(CoatParams { factor: 0.0, roughness: 0.0, normal: Vec3::Z });
         Input {
@@ -206,12 +207,10 @@ fn random(n: &mut Numbers) -> BsdfParams {
     let eta = n.between(1.0, 2.5);
     let eta = n.one_of(&[eta, 1.0 / eta, 1.5, 1.0]);
     let dispersion = n.between(0.98, 1.02);
-    let film = FilmParams { factor: n.unit(), ior: n.between(1.0, 2.5), thickness_nm: n.between(0.0, 1500.0) };
-    let gloss = GlossParams {
-        specular: color(n) * 0.7,
-        exponent: n.scale(0.1, 3e6),
-        fresnel: n.below(2) == 0,
-    };
+    let film =
+        FilmParams { factor: n.unit(), ior: n.between(1.0, 2.5), thickness_nm: n.between(0.0, 1500.0) };
+    let gloss =
+        GlossParams { specular: color(n) * 0.7, exponent: n.scale(0.1, 3e6), fresnel: n.below(2) == 0 };
     let sheen = SheenParams { color: color(n), roughness: roughness(n) };
     let lean = Vec3::new(n.between(-0.3, 0.3), n.between(-0.3, 0.3), 1.0).normalize();
     let coat = CoatParams { factor: share(n), roughness: roughness(n), normal: n.one_of(&[Vec3::Z, lean]) };
@@ -227,7 +226,11 @@ fn random(n: &mut Numbers) -> BsdfParams {
         eta,
         inside: eta < 1.0,
         eta_fresnel: (eta > 1.0 && n.below(4) == 0).then_some((eta * dispersion).max(1.0)),
-        diffuse_sampling: n.one_of(&[DiffuseSampling::Cosine, DiffuseSampling::Cosine, DiffuseSampling::Uniform]),
+        diffuse_sampling: n.one_of(&[
+            DiffuseSampling::Cosine,
+            DiffuseSampling::Cosine,
+            DiffuseSampling::Uniform,
+        ]),
         diffuse_roughness: share(n),
         diffuse_transmission: share(n),
         diffuse_transmission_color: color(n),
@@ -249,14 +252,24 @@ fn corners() -> Vec<BsdfParams> {
         all.push(BsdfParams { roughness, metallic: 1.0, ..d });
         all.push(BsdfParams { roughness, ..d });
         all.push(BsdfParams { roughness, transmission: 1.0, ..d });
-        all.push(BsdfParams { roughness, coat: Some(CoatParams { factor: 1.0, roughness, normal: Vec3::Z }), ..d });
-        all.push(BsdfParams { roughness, sheen: Some(SheenParams { color: Spectrum::WHITE, roughness }), ..d });
+        all.push(BsdfParams {
+            roughness,
+            coat: Some(CoatParams { factor: 1.0, roughness, normal: Vec3::Z }),
+            ..d
+        });
+        all.push(BsdfParams {
+            roughness,
+            sheen: Some(SheenParams { color: Spectrum::WHITE, roughness }),
+            ..d
+        });
         all.push(BsdfParams { roughness, anisotropy: 0.02, metallic: 1.0, ..d });
         for eta in [0.5, 0.999, 1.0, 1.000_1, 1.01, 3.0] {
             all.push(BsdfParams { roughness, eta, ..solid });
         }
     }
-    for params in [BsdfParams { metallic: 1.0, roughness: 0.3, ..d }, d, BsdfParams { roughness: 0.0, ..solid }] {
+    for params in
+        [BsdfParams { metallic: 1.0, roughness: 0.3, ..d }, d, BsdfParams { roughness: 0.0, ..solid }]
+    {
         for film in [film(1.0, 1.8, 0.0), film(0.0, 1.8, 300.0), film(1.0, 1.0, 300.0), film(1.0, 1.8, 1e9)] {
             all.push(BsdfParams { film, ..params });
         }

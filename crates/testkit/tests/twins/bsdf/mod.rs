@@ -78,12 +78,12 @@ fn twin(c: &Case) -> Output {
 fn numbers(o: &Output) -> [(&'static str, f32, f32); 23] {
     let [f, w, a] = [o.f, o.weight, o.albedo];
     let [d, t, s] = [o.wi, o.thin_transmittance, o.straight_transmittance];
-    // Of values and densities, which have no scale, only what has faded away counts as 0.
-    let (some, none) = (1.0, 1e-6);
+    // A density has no scale: only what has faded away counts as 0. A value has that of Lambert, 0.3.
+    let (some, none, lambert) = (1.0, 1e-6, 0.1);
     [
-        ("f", f[0], none),
-        ("f", f[1], none),
-        ("f", f[2], none),
+        ("f", f[0], lambert),
+        ("f", f[1], lambert),
+        ("f", f[2], lambert),
         ("pdf", o.pdf, none),
         ("wi", d[0], some),
         ("wi", d[1], some),
@@ -148,7 +148,9 @@ fn nudged(c: &Case) -> Vec<Case> {
         params(&|p| p.coat = Some(lumbre_core::bsdf::CoatParams { roughness: more(coat.roughness), ..coat }));
     }
     if let Some(sheen) = c.params.sheen {
-        params(&|p| p.sheen = Some(lumbre_core::bsdf::SheenParams { roughness: more(sheen.roughness), ..sheen }));
+        params(&|p| {
+            p.sheen = Some(lumbre_core::bsdf::SheenParams { roughness: more(sheen.roughness), ..sheen })
+        });
     }
     all
 }

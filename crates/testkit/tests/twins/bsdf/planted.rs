@@ -13,19 +13,39 @@ type Plant = fn(&mut BsdfParams);
 
 /// Every parameter, and the families in which it must be found.
 const PLANTS: [(&str, Plant, &[&str]); 22] = [
-    ("base_color", |p| p.base_color *= LESS, &["metals", "bases", "diffuse", "transmissive", "mixtures", "anisotropic"]),
-    ("base_color, a band", |p| p.base_color.g *= LESS, &["metals", "bases", "diffuse", "gloss", "transmissive"]),
+    (
+        "base_color",
+        |p| p.base_color *= LESS,
+        &["metals", "bases", "diffuse", "transmissive", "mixtures", "anisotropic"],
+    ),
+    (
+        "base_color, a band",
+        |p| p.base_color.g *= LESS,
+        &["metals", "bases", "diffuse", "gloss", "transmissive"],
+    ),
     ("metallic", |p| p.metallic *= LESS, &["mixtures", "sheens", "anisotropic", "films"]),
-    ("roughness", |p| p.roughness *= LESS, &["metals", "bases", "diffuse", "transmissive", "mixtures", "anisotropic"]),
+    (
+        "roughness",
+        |p| p.roughness *= LESS,
+        &["metals", "bases", "diffuse", "transmissive", "mixtures", "anisotropic"],
+    ),
     ("ior", |p| p.ior *= LESS, &["bases", "diffuse", "transmissive", "mixtures", "coats", "films"]),
     ("specular", |p| p.specular *= LESS, &["bases", "diffuse", "mixtures", "coats", "anisotropic", "films"]),
     ("specular_color", |p| p.specular_color *= LESS, &["bases", "diffuse", "mixtures", "films"]),
-    ("transmission", |p| p.transmission *= LESS, &["transmissive", "mixtures", "coats", "anisotropic", "films"]),
+    (
+        "transmission",
+        |p| p.transmission *= LESS,
+        &["transmissive", "mixtures", "coats", "anisotropic", "films"],
+    ),
     ("eta", |p| p.eta *= LESS, &["transmissive", "mixtures", "diffuse", "coats", "anisotropic", "films"]),
     ("eta_fresnel", |p| p.eta_fresnel = p.eta_fresnel.map(|e| e * LESS), &["random"]),
     ("diffuse_roughness", |p| p.diffuse_roughness *= LESS, &["diffuse", "gloss", "mixtures"]),
     ("diffuse_transmission", |p| p.diffuse_transmission *= LESS, &["diffuse", "gloss", "mixtures"]),
-    ("diffuse_transmission_color", |p| p.diffuse_transmission_color *= LESS, &["diffuse", "gloss", "mixtures"]),
+    (
+        "diffuse_transmission_color",
+        |p| p.diffuse_transmission_color *= LESS,
+        &["diffuse", "gloss", "mixtures"],
+    ),
     ("anisotropy", |p| p.anisotropy *= LESS, &["anisotropic", "random"]),
     ("film", |p| each(&mut p.film, |f| f.factor *= LESS), &["films"]),
     ("film ior", |p| each(&mut p.film, |f| f.ior *= LESS), &["films"]),
@@ -40,10 +60,18 @@ const PLANTS: [(&str, Plant, &[&str]); 22] = [
 /// The same for what is no factor.
 const OTHER_PLANTS: [(&str, Plant, &[&str]); 7] = [
     ("coat roughness", |p| each(&mut p.coat, |c| c.roughness *= LESS), &["coats", "tilted coats", "sheens"]),
-    ("coat normal", |p| each(&mut p.coat, |c| c.normal = (c.normal + Vec3::X * 0.01).normalize()), &["coats", "tilted coats"]),
+    (
+        "coat normal",
+        |p| each(&mut p.coat, |c| c.normal = (c.normal + Vec3::X * 0.01).normalize()),
+        &["coats", "tilted coats"],
+    ),
     ("thin", |p| p.thin = !p.thin, &["transmissive", "mixtures"]),
     ("inside", |p| p.inside = !p.inside, &["coats", "sheens"]),
-    ("diffuse_sampling", |p| p.diffuse_sampling = lumbre_core::bsdf::DiffuseSampling::Uniform, &["bases", "diffuse", "gloss"]),
+    (
+        "diffuse_sampling",
+        |p| p.diffuse_sampling = lumbre_core::bsdf::DiffuseSampling::Uniform,
+        &["bases", "diffuse", "gloss"],
+    ),
     ("gloss fresnel", |p| each(&mut p.gloss, |g| g.fresnel = !g.fresnel), &["gloss"]),
     ("film of another kind", |p| p.film = None, &["films"]),
 ];
