@@ -3,9 +3,13 @@
 //! A kernel of `crates/shaders/glsl/twins` evaluates the shader's side; each file here is named after the kernel and evaluates
 //! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
 
+mod bsdf;
 mod columns;
 mod film;
+mod fresnel;
 mod hash;
+mod math;
+mod microfacet;
 mod sampler;
 
 use bytemuck::Pod;
