@@ -38,7 +38,11 @@ impl Columns {
 
     /// For each column in how many rows both sides are further apart than they may be. Prints the first of each.
     pub(crate) fn differing<O: Pod>(&self, rust: &[O], gpu: &[O]) -> Vec<(&'static str, usize)> {
-        assert_eq!((rust.len(), size_of::<O>()), (gpu.len(), 4 * self.width), "columns are not those of the output");
+        assert_eq!(
+            (rust.len(), size_of::<O>()),
+            (gpu.len(), 4 * self.width),
+            "columns are not those of the output"
+        );
         let (a, b): (&[u32], &[u32]) = (bytemuck::cast_slice(rust), bytemuck::cast_slice(gpu));
         let rows = || a.chunks_exact(self.width).zip(b.chunks_exact(self.width)).enumerate();
         let count = |column: &Column| {

@@ -3,10 +3,16 @@
 //! A kernel of `crates/shaders/glsl/twins` evaluates the shader's side; each file here is named after the kernel and evaluates
 //! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
 
+mod camera;
 mod columns;
+mod environment;
 mod film;
 mod hash;
+mod lights;
+mod medium;
 mod sampler;
+mod warp;
+mod wavelength;
 
 use bytemuck::Pod;
 use lumbre_vulkan::Specialisation;
