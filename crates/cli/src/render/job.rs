@@ -73,7 +73,7 @@ impl Job<'_> {
         if early && outcome.progress.samples == 0 {
             return Err(nothing(failure));
         }
-        report::validation(self.args.run.device.validation, prepared.backend);
+        report::validation(prepared.backend);
         let saturated = report::film(&film);
         report::black(&film, &self.args.scene);
         report::ended(&outcome, &targets);

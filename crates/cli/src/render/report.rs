@@ -33,11 +33,11 @@ pub(super) fn ended(outcome: &Outcome, targets: &Targets) {
     console::note(format_args!("{why}{} samples per pixel, estimated error {error}", outcome.spp));
 }
 
-/// Says what the validation layer had to say, if it was asked.
-pub(super) fn validation(asked: bool, backend: &dyn Backend) {
-    let complaints = backend.complaints();
+/// Says what a validation layer found, if one was asked for.
+pub(super) fn validation(backend: &dyn Backend) {
+    let Some(complaints) = backend.complaints() else { return };
     complaints.iter().for_each(|c| console::warning(format_args!("validation: {}", c.replace('\n', " "))));
-    if asked && complaints.is_empty() {
+    if complaints.is_empty() {
         console::note("validation: no complaints");
     }
 }

@@ -73,7 +73,7 @@ impl Backend for Fallback {
         self.state().current.pass_times()
     }
 
-    fn complaints(&self) -> Vec<String> {
+    fn complaints(&self) -> Option<Vec<String>> {
         self.state().current.complaints()
     }
 

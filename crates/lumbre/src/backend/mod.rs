@@ -72,9 +72,9 @@ pub trait Backend: Send + Sync {
         Vec::new()
     }
 
-    /// What a validation layer that was asked for ([`GpuOptions::validation`]) has said so far, the oldest first.
-    fn complaints(&self) -> Vec<String> {
-        Vec::new()
+    /// What a validation layer ([`GpuOptions::validation`]) has found so far, the oldest first; `None` where none listens.
+    fn complaints(&self) -> Option<Vec<String>> {
+        None
     }
 
     /// Draws `count` frames as an interactive program does, for measurements: each adds `spp` samples of every pixel to sums that

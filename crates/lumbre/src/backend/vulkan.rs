@@ -11,8 +11,11 @@ pub(super) use lumbre_vulkan::Gpu;
 /// # Errors
 /// Why there are none, in one line.
 pub(super) fn adapters() -> Result<Vec<DeviceInfo>, String> {
-    let found = lumbre_vulkan::adapters().map_err(|e| e.to_string())?;
-    Ok(found.into_iter().map(info).collect())
+    match lumbre_vulkan::adapters() {
+        Ok(found) => Ok(found.into_iter().map(info).collect()),
+        Err(VulkanError::NoDevice(_)) => Err("Vulkan finds no driver".into()),
+        Err(e) => Err(e.to_string()),
+    }
 }
 
 fn info(a: Adapter) -> DeviceInfo {
