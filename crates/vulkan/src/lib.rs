@@ -8,6 +8,7 @@
 mod adapters;
 mod buffer;
 mod commands;
+mod compute;
 mod error;
 mod features;
 mod gpu;
@@ -15,6 +16,7 @@ mod instance;
 mod kernel;
 mod memory;
 mod pipeline;
+mod post;
 mod specialisation;
 #[cfg(test)]
 mod tests;
@@ -29,5 +31,6 @@ pub use gpu::{Gpu, Options};
 pub use instance::Validation;
 pub use kernel::Kernel;
 pub use memory::MemoryUse;
+pub use post::Post;
 pub use specialisation::Specialisation;
 pub use upload::Upload;

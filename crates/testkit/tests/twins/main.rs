@@ -10,7 +10,9 @@ mod film;
 mod hash;
 mod lights;
 mod medium;
+mod post;
 mod sampler;
+mod tone;
 mod warp;
 mod wavelength;
 
