@@ -17,7 +17,7 @@ use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::View;
 use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::material::flag;
-use lumbre_scene::compiled::surroundings::Crossing;
+use lumbre_scene::compiled::surroundings::{Crossing, surroundings};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -115,9 +115,9 @@ impl CpuBackend {
         self.shot(view, size).sample(pixel, index, observer)
     }
 
-    /// The solids around a point: [`CompiledScene::surroundings`].
+    /// The solids around a point: [`surroundings`].
     fn media_at(&self, point: Vec3) -> MediumStack {
-        self.scene.surroundings(|dir| self.crossings(point, dir))
+        surroundings(&self.scene.materials, |dir| self.crossings(point, dir))
     }
 
     /// Surfaces of solids that a ray to infinity crosses.

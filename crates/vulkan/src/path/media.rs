@@ -2,35 +2,54 @@
 //! has a tree to ask (`cpu/src/backend.rs`).
 
 use glam::{DVec3, Vec3};
+use lumbre_core::medium::MediumStack;
 use lumbre_scene::CompiledScene;
-use lumbre_scene::compiled::material::flag;
-use lumbre_scene::compiled::surroundings::Crossing;
+use lumbre_scene::compiled::material::{MaterialRecord, flag};
+use lumbre_scene::compiled::surroundings::{Crossing, surroundings};
 
-/// Surfaces of solids along a ray, nearest first.
-pub(super) fn crossings(scene: &CompiledScene, point: Vec3, dir: Vec3) -> Vec<Crossing> {
-    let mut found: Vec<(f64, Crossing)> = Vec::new();
-    let is_solid = |material: u32| scene.materials[material as usize].has(flag::SOLID);
-    for instance in &scene.instances {
-        let mesh = &scene.meshes[instance.mesh as usize];
-        let key = &scene.transforms[instance.first_transform as usize];
-        let to_object = key.world_to_object();
-        // `t` is the same in both spaces where the direction keeps its length.
-        let origin = DVec3::from(Vec3::from(to_object.transform_point3(point)));
-        let dir = DVec3::from(Vec3::from(to_object.transform_vector3(dir)));
-        for triangle in mesh.first_triangle..mesh.first_triangle + mesh.triangle_count {
-            let material = scene.triangle_materials[triangle as usize];
-            if !is_solid(material) {
-                continue;
-            }
-            let corners = scene.triangles[triangle as usize]
-                .map(|v| DVec3::from(Vec3::from_array(scene.positions[v as usize])));
-            if let Some((t, front)) = intersect(corners, origin, dir) {
-                found.push((t, Crossing { material, front }));
+/// All triangles of solids.
+pub(super) struct Solids {
+    materials: Vec<MaterialRecord>,
+    /// Corners in world space, counter-clockwise seen from the front, and the material.
+    triangles: Vec<([Vec3; 3], u32)>,
+}
+
+impl Solids {
+    pub(super) fn new(scene: &CompiledScene) -> Self {
+        let mut triangles = Vec::new();
+        for instance in &scene.instances {
+            let mesh = &scene.meshes[instance.mesh as usize];
+            let key = &scene.transforms[instance.first_transform as usize];
+            for triangle in mesh.first_triangle..mesh.first_triangle + mesh.triangle_count {
+                let material = scene.triangle_materials[triangle as usize];
+                if scene.materials[material as usize].has(flag::SOLID) {
+                    let [a, b, c] = scene.triangles[triangle as usize]
+                        .map(|v| key.point(Vec3::from_array(scene.positions[v as usize])));
+                    // A transform that mirrors turns the winding but not the front.
+                    triangles.push((if key.handedness < 0.0 { [a, c, b] } else { [a, b, c] }, material));
+                }
             }
         }
+        Solids { materials: scene.materials.clone(), triangles }
     }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    found.into_iter().map(|(_, crossing)| crossing).collect()
+
+    /// The solids around a point.
+    pub(super) fn around(&self, point: Vec3) -> MediumStack {
+        surroundings(&self.materials, |dir| self.crossings(point, dir))
+    }
+
+    /// Surfaces along a ray, nearest first.
+    fn crossings(&self, point: Vec3, dir: Vec3) -> Vec<Crossing> {
+        let (origin, dir) = (DVec3::from(point), DVec3::from(dir));
+        let mut found: Vec<(f64, Crossing)> = Vec::new();
+        for (corners, material) in &self.triangles {
+            if let Some((t, front)) = intersect(corners.map(DVec3::from), origin, dir) {
+                found.push((t, Crossing { material: *material, front }));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.into_iter().map(|(_, crossing)| crossing).collect()
+    }
 }
 
 /// Distance to a triangle and whether the ray comes from the side from which it winds counter-clockwise. Möller and Trumbore 1997.

@@ -10,20 +10,31 @@ use lumbre_scene::compiled::NONE;
 use lumbre_scene::compiled::lights::{LightGroup, kind};
 use lumbre_scene::compiled::material::{LobesRecord, MaterialRecord, TextureUse, flag};
 
-/// The constants for a scene and the settings of a render.
-pub(super) fn specialisation(scene: &CompiledScene, settings: &RenderSettings, images: bool) -> Specialisation {
-    let constants = settings_constants(Specialisation::new(), settings);
-    let constants = light_constants(constants, scene);
-    let constants = material_constants(constants, scene, images);
-    let any = |has: fn(&LobesRecord) -> bool| scene.lobes.iter().any(has);
-    constants
-        .bool(15, any(|l| !l.sheen_color.is_black()))
-        .bool(16, any(|l| l.coat > 0.0))
-        .bool(17, any(|l| l.iridescence > 0.0))
-        .bool(18, any(|l| l.anisotropy > 0.0))
-        .bool(19, any(|l| l.diffuse_roughness > 0.0))
-        .bool(20, any(|l| l.diffuse_transmission > 0.0))
-        .bool(61, !scene.lobes.is_empty())
+/// What a scene has.
+#[derive(Clone, Debug)]
+pub(super) struct SceneConstants(Specialisation);
+
+impl SceneConstants {
+    /// Looks the scene over.
+    pub(super) fn new(scene: &CompiledScene) -> Self {
+        let constants = light_constants(Specialisation::new(), scene);
+        let constants = material_constants(constants, scene);
+        let any = |has: fn(&LobesRecord) -> bool| scene.lobes.iter().any(has);
+        let constants = constants
+            .bool(15, any(|l| !l.sheen_color.is_black()))
+            .bool(16, any(|l| l.coat > 0.0))
+            .bool(17, any(|l| l.iridescence > 0.0))
+            .bool(18, any(|l| l.anisotropy > 0.0))
+            .bool(19, any(|l| l.diffuse_roughness > 0.0))
+            .bool(20, any(|l| l.diffuse_transmission > 0.0))
+            .bool(61, !scene.lobes.is_empty());
+        SceneConstants(constants)
+    }
+
+    /// With the settings of a render.
+    pub(super) fn with(&self, settings: &RenderSettings) -> Specialisation {
+        settings_constants(self.0.clone(), settings)
+    }
 }
 
 fn settings_constants(constants: Specialisation, settings: &RenderSettings) -> Specialisation {
@@ -57,7 +68,7 @@ fn light_constants(constants: Specialisation, scene: &CompiledScene) -> Speciali
         .bool(55, scene.environment.light != NONE)
 }
 
-fn material_constants(constants: Specialisation, scene: &CompiledScene, images: bool) -> Specialisation {
+fn material_constants(constants: Specialisation, scene: &CompiledScene) -> Specialisation {
     let any = |has: &dyn Fn(&MaterialRecord) -> bool| scene.materials.iter().any(has);
     let flagged = |bit: u32| any(&|m| m.has(bit));
     let used = |t: &TextureUse| !t.is_none();

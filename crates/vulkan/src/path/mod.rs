@@ -1,0 +1,9 @@
+//! The path tracer: a scene on a GPU, rendered into films.
+
+mod backend;
+mod film;
+mod media;
+mod slices;
+mod variant;
+
+pub use backend::{Frames, PassTime, VulkanBackend};
