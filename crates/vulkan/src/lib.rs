@@ -10,7 +10,11 @@ mod adapters;
 mod buffer;
 mod cache;
 mod commands;
+<<<<<<< HEAD
 mod descriptors;
+=======
+mod compute;
+>>>>>>> physics
 mod error;
 mod features;
 mod gpu;
@@ -20,10 +24,14 @@ mod kernel;
 mod memory;
 mod path;
 mod pipeline;
+<<<<<<< HEAD
 mod ray_pipeline;
 mod replay;
 mod sbt;
 mod scene;
+=======
+mod post;
+>>>>>>> physics
 mod specialisation;
 #[cfg(test)]
 mod tests;
@@ -41,10 +49,14 @@ pub use gpu::{Gpu, Options};
 pub use instance::Validation;
 pub use kernel::Kernel;
 pub use memory::MemoryUse;
+<<<<<<< HEAD
 pub use path::{Frames, PassTime, VulkanBackend};
 pub use ray_pipeline::{HitShaders, RayPipeline, RayShaders};
 pub use replay::Replay;
 pub use scene::{SceneOnGpu, SceneOptions};
+=======
+pub use post::Post;
+>>>>>>> physics
 pub use specialisation::Specialisation;
 pub use timer::Timer;
 pub use upload::Upload;
