@@ -24,8 +24,6 @@ layout(constant_id = 59) const bool HAS_DISPERSION = true;
 layout(constant_id = 60) const bool HAS_TRANSMISSION = true;
 layout(constant_id = 61) const bool HAS_LOBES = true;
 layout(constant_id = 62) const bool HAS_UNLIT = true;
-// Textures are images, filtered by the device; otherwise texels in buffers, filtered by hand.
-layout(constant_id = 63) const bool IMAGE_TEXTURES = true;
 
 // Values of TRANSMISSIVE_SHADOWS.
 const uint SHADOWS_AUTO = 0u;

@@ -10,3 +10,16 @@ pub mod layout;
 pub mod medium;
 pub mod tables;
 pub mod view;
+
+/// Ray generation of the path tracer.
+pub const PATH_RGEN: &[u8] = include_bytes!("../spirv/path/path.rgen.spv");
+/// Closest hit of a path's ray.
+pub const RADIANCE_RCHIT: &[u8] = include_bytes!("../spirv/path/radiance.rchit.spv");
+/// Any hit of a path's ray, for what is there only in part.
+pub const RADIANCE_RAHIT: &[u8] = include_bytes!("../spirv/path/radiance.rahit.spv");
+/// Miss of a path's ray.
+pub const RADIANCE_RMISS: &[u8] = include_bytes!("../spirv/path/radiance.rmiss.spv");
+/// Any hit of a shadow ray, for what may let light through.
+pub const SHADOW_RAHIT: &[u8] = include_bytes!("../spirv/path/shadow.rahit.spv");
+/// Miss of a shadow ray.
+pub const SHADOW_RMISS: &[u8] = include_bytes!("../spirv/path/shadow.rmiss.spv");

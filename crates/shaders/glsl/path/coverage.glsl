@@ -21,12 +21,11 @@ uint coverage_key_catcher(uint stream, uint vertex, uint passed) {
     return hash_combine(hash_combine(stream, 2u * vertex + 1u), passed + 1u);
 }
 
-// Alpha: factor × texture × vertex colour. The texel is filtered by hand, since visibility depends on it.
+// Alpha: factor × texture × vertex colour.
 float surface_alpha(uint material, HitAttributes at) {
     float texel = 1.0;
-    if (HAS_TEXTURES && MATERIAL(material).base_color_texture.texture_id != NONE) {
-        TextureUse use = MATERIAL(material).base_color_texture;
-        texel = texture_by_hand(use.texture_id, texture_uv(use, at.uv0, at.uv1), LINEAR).a;
+    if (HAS_TEXTURES && MATERIAL(material).base_color_texture.texture != NONE) {
+        texel = texture_alpha(MATERIAL(material).base_color_texture, at.uv0, at.uv1);
     }
     return clamp(MATERIAL(material).alpha * texel * at.color.a, 0.0, 1.0);
 }

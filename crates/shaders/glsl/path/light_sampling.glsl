@@ -13,9 +13,12 @@
 #include "light/sun.glsl"
 #include "light/triangle.glsl"
 
-// Groups of lights.
-const uint GROUP_NEAR = 0u;
-const uint GROUP_FAR = 1u;
+// Groups of lights, in the order in which a vertex asks them; those that the scene has are FIRST_GROUP up to END_GROUP.
+const uint GROUP_FAR = 0u;
+const uint GROUP_NEAR = 1u;
+const uint FIRST_GROUP = HAS_FAR_LIGHTS ? GROUP_FAR : GROUP_NEAR;
+const uint END_GROUP = HAS_NEAR_LIGHTS ? 2u : 1u;
+const bool HAS_BOTH_GROUPS = HAS_NEAR_LIGHTS && HAS_FAR_LIGHTS;
 
 // Light that may arrive at a point.
 struct LightSample {
@@ -38,10 +41,6 @@ struct LightSample {
 
 // Below this probability a light leaves too few digits of the number that chose it for a point on it.
 const float FEW_DIGITS = 1.0 / 4096.0;
-
-bool has_lights(uint group) {
-    return group == GROUP_NEAR ? HAS_NEAR_LIGHTS : HAS_FAR_LIGHTS;
-}
 
 SunDisc scene_sun() {
     return SunDisc(push.scene.sun.direction, push.scene.sun.one_minus_cos, push.scene.sun.radiance);

@@ -8,7 +8,7 @@
 Frame lobes_stretched(uint lobes, Interaction it, Frame frame, inout BsdfParams params) {
     vec2 direction = vec2(1.0, 0.0);
     float strength = 1.0;
-    if (HAS_TEXTURES && LOBES(lobes).anisotropy_texture.texture_id != NONE) {
+    if (HAS_TEXTURES && LOBES(lobes).anisotropy_texture.texture != NONE) {
         vec3 texel = texture_value(LOBES(lobes).anisotropy_texture, it.uv0, it.uv1, LINEAR).rgb;
         direction = vec2(2.0 * texel.r - 1.0, 2.0 * texel.g - 1.0);
         strength = texel.b;

@@ -247,11 +247,6 @@ float path_prob_asked(Spectrum unshadowed, float both) {
     return share < 1.0 ? max(share, LEAST_ASKED) : 1.0;
 }
 
-// Whether the light of a candidate is asked for, with a certain probability.
-bool path_asks(Path path, Candidate c, float prob) {
-    return c.present && (prob >= 1.0 || sampler_light_roulette(path.smp, path.depth) < prob);
-}
-
 // Moves on along the sampled direction.
 void path_step(inout Path path, Interaction it, Surface surface, BsdfSample s, vec3 wi) {
     bool transmits = lobe_is_transmission(s.lobe);
@@ -302,23 +297,23 @@ bool path_survives(inout Path path) {
 bool path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo) {
     vec3 wo_local = frame_to_local(surface.frame, wo);
     // Sample one light of each group.
-    Candidate first;
-    Candidate second;
-    first.present = false;
-    second.present = false;
-    float prob_first = 1.0;
-    float prob_second = 1.0;
+    Candidate far;
+    Candidate near;
+    far.present = false;
+    near.present = false;
+    far.unshadowed = vec3(0.0);
+    near.unshadowed = vec3(0.0);
     if (LIGHT_SAMPLING && bsdf_has_smooth_lobes(surface.bsdf)) {
-        vec2 point = sampler_light_point(path.smp, path.depth);
-        if (HAS_NEAR_LIGHTS != HAS_FAR_LIGHTS) {
-            first = path_candidate(path, it, surface, wo_local, HAS_NEAR_LIGHTS ? GROUP_NEAR : GROUP_FAR, point);
-        } else if (HAS_NEAR_LIGHTS) {
-            first = path_candidate(path, it, surface, wo_local, GROUP_FAR, point);
-            second = path_candidate(path, it, surface, wo_local, GROUP_NEAR, sampler_second_light_point(path.smp, path.depth));
-            float both = (first.present ? average(first.unshadowed) : 0.0) + (second.present ? average(second.unshadowed) : 0.0);
-            // Both cannot be faint, so one number serves.
-            prob_first = path_prob_asked(first.unshadowed, both);
-            prob_second = path_prob_asked(second.unshadowed, both);
+        // One call for both groups: each is compiled in full.
+        for (uint group = FIRST_GROUP; group < END_GROUP; ++group) {
+            bool second = HAS_BOTH_GROUPS && group == GROUP_NEAR;
+            vec2 point = second ? sampler_second_light_point(path.smp, path.depth) : sampler_light_point(path.smp, path.depth);
+            Candidate c = path_candidate(path, it, surface, wo_local, group, point);
+            if (group == GROUP_NEAR) {
+                near = c;
+            } else {
+                far = c;
+            }
         }
     }
     // Sample the BSDF.
@@ -336,11 +331,17 @@ bool path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo) {
             wavelength = surface.wavelength.nm;
         }
     }
-    if (path_asks(path, first, prob_first)) {
-        path_add_light(path, first, prob_first, beyond, wavelength);
-    }
-    if (HAS_NEAR_LIGHTS && HAS_FAR_LIGHTS && path_asks(path, second, prob_second)) {
-        path_add_light(path, second, prob_second, beyond, wavelength);
+    float both = average(far.unshadowed) + average(near.unshadowed);
+    for (uint group = FIRST_GROUP; group < END_GROUP; ++group) {
+        Candidate c = far;
+        if (group == GROUP_NEAR) {
+            c = near;
+        }
+        float prob = HAS_BOTH_GROUPS ? path_prob_asked(c.unshadowed, both) : 1.0;
+        // Both cannot be faint, so one number serves.
+        if (c.present && (prob >= 1.0 || sampler_light_roulette(path.smp, path.depth) < prob)) {
+            path_add_light(path, c, prob, beyond, wavelength);
+        }
     }
     // Interpolated normals: directions on the wrong side of the triangle carry nothing.
     if (!scatters || (dot(wi, surface.ng) > 0.0) == lobe_is_transmission(s.lobe)) {

@@ -19,9 +19,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Counters {
 // The view, and where its film lies.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ViewTable {
     // Sums of the film's pixels, row by row.
-    Film film;
+    FilmPixels film;
     // Samples that were not finite.
-    NonFinite non_finite;
+    NonFiniteList non_finite;
     // RAY_COUNTERS numbers of rays of paths, then as many of shadow rays.
     Counters rays;
     // Size of the picture, and the film's part of it, pixels.
@@ -41,6 +41,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Vie
     CameraRecord camera;
     // The media around the camera.
     MediumStack media;
+    uint unused;
 };
 
 layout(push_constant, scalar) uniform Push {

@@ -4,7 +4,7 @@
 
 #include "path/interaction.glsl"
 #include "scene/texture.glsl"
-#include "bsdf/bsdf.glsl"
+#include "bsdf/layered.glsl"
 #include "frame.glsl"
 #include "medium.glsl"
 #include "wavelength.glsl"
@@ -126,7 +126,7 @@ vec3 normalize_or(vec3 v, vec3 fallback) {
 // The interpolated normal, turned by a normal map if there is one, on the side of the viewer; unit. `ng` lies on the viewer's side.
 vec3 surface_mapped_normal(Interaction it, vec3 wo, vec3 ng, TextureUse use, float scale) {
     vec3 ns = it.ns;
-    if (HAS_NORMAL_MAPS && use.texture_id != NONE && dot(it.tangent, it.tangent) > 0.0) {
+    if (HAS_NORMAL_MAPS && use.texture != NONE && dot(it.tangent, it.tangent) > 0.0) {
         Frame base = frame_from_normal_tangent(ns, it.tangent);
         vec3 texel = texture_value(use, it.uv0, it.uv1, LINEAR).rgb * 2.0 - 1.0;
         float x = texel.x * scale;

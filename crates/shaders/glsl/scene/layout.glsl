@@ -100,7 +100,7 @@ const uint FLAG_DISPERSION = 1024u;
 
 // How a material uses a texture.
 struct TextureUse {
-    uint texture_id;
+    uint texture;
     uint uv_set;
     vec3 transform[2];
 };

@@ -1,11 +1,12 @@
-// Textures. Twin: scene/src/compiled/texture.rs; images filtered by the device take its place where nothing but colour depends on them.
+// Textures. Twin: scene/src/compiled/texture.rs for alpha, which decides whether a ray finds a surface; for all else, where IMAGES is
+// defined, images that the device filters take its place.
 #extension GL_EXT_nonuniform_qualifier : require
 #ifndef SCENE_TEXTURE_GLSL
 #define SCENE_TEXTURE_GLSL
 
 #include "scene/layout.glsl"
 #include "variants.glsl"
-#include "color.glsl"
+#include "math.glsl"
 
 #ifdef IMAGES
 layout(set = 0, binding = 1) uniform sampler2D textures_srgb[];
@@ -35,23 +36,25 @@ float texture_reduced(float x, uint mode) {
     return isnan(x) || isinf(x) ? 0.0 : x;
 }
 
-vec4 texture_decode(uint texel, bool srgb) {
-    vec4 v = unpackUnorm4x8(texel);
-    return srgb ? vec4(srgb_decode(v.rgb), v.a) : v;
+vec2 texture_uv(TextureUse use, vec2 uv0, vec2 uv1) {
+    vec3 uv = vec3(use.uv_set == 0u ? uv0 : uv1, 1.0);
+    return vec2(dot(use.transform[0], uv), dot(use.transform[1], uv));
 }
 
-vec4 texture_texel(TextureTable t, int x, int y, bool srgb) {
+// Alpha of a texel.
+float texture_alpha_texel(TextureTable t, int x, int y) {
     int at = texture_wrapped(y, int(t.height), t.wrap_t) * int(t.width) + texture_wrapped(x, int(t.width), t.wrap_s);
-    return texture_decode(t.texels.at[at], srgb);
+    return float(t.texels.at[at] >> 24) * (1.0 / 255.0);
 }
 
-// Bilinear between texel centres, decoded before filtering; v down.
-vec4 texture_by_hand(uint id, vec2 uv, bool srgb) {
-    TextureTable t = push.scene.textures.at[id];
+// Alpha of a texture, bilinear between texel centres; v down. Filtered by hand, so that every device finds the same surfaces.
+float texture_alpha(TextureUse use, vec2 uv0, vec2 uv1) {
+    TextureTable t = push.scene.textures.at[use.texture];
+    vec2 uv = texture_uv(use, uv0, uv1);
     float x = texture_reduced(uv.x, t.wrap_s) * float(t.width);
     float y = texture_reduced(uv.y, t.wrap_t) * float(t.height);
     if (t.nearest == 1u) {
-        return texture_texel(t, int(floor(x)), int(floor(y)), srgb);
+        return texture_alpha_texel(t, int(floor(x)), int(floor(y)));
     }
     x -= 0.5;
     y -= 0.5;
@@ -59,33 +62,26 @@ vec4 texture_by_hand(uint id, vec2 uv, bool srgb) {
     int j = int(floor(y));
     float fx = x - float(i);
     float fy = y - float(j);
-    vec4 top = mix(texture_texel(t, i, j, srgb), texture_texel(t, i + 1, j, srgb), fx);
-    vec4 bottom = mix(texture_texel(t, i, j + 1, srgb), texture_texel(t, i + 1, j + 1, srgb), fx);
-    return mix(top, bottom, fy);
+    float top = lerp(texture_alpha_texel(t, i, j), texture_alpha_texel(t, i + 1, j), fx);
+    float bottom = lerp(texture_alpha_texel(t, i, j + 1), texture_alpha_texel(t, i + 1, j + 1), fx);
+    return lerp(top, bottom, fy);
 }
 
-vec2 texture_uv(TextureUse use, vec2 uv0, vec2 uv1) {
-    vec3 uv = vec3(use.uv_set == 0u ? uv0 : uv1, 1.0);
-    return vec2(dot(use.transform[0], uv), dot(use.transform[1], uv));
-}
-
+#ifdef IMAGES
+// The value of a texture, filtered by the device.
 vec4 texture_value(TextureUse use, vec2 uv0, vec2 uv1, bool srgb) {
     vec2 uv = texture_uv(use, uv0, uv1);
-#ifdef IMAGES
-    if (IMAGE_TEXTURES) {
-        // Rays have no footprint: the finest level.
-        return srgb ? textureLod(textures_srgb[nonuniformEXT(use.texture_id)], uv, 0.0)
-                    : textureLod(textures_linear[nonuniformEXT(use.texture_id)], uv, 0.0);
-    }
-#endif
-    return texture_by_hand(use.texture_id, uv, srgb);
+    // Rays have no footprint: the finest level.
+    return srgb ? textureLod(textures_srgb[nonuniformEXT(use.texture)], uv, 0.0)
+                : textureLod(textures_linear[nonuniformEXT(use.texture)], uv, 0.0);
 }
 
 // The value of a texture that a record in memory names; white where there is none. A macro, so that the record is read only where
 // there is one.
 #define TEXTURE(use, it, srgb) \
-    (HAS_TEXTURES && (use).texture_id != NONE ? texture_value(use, (it).uv0, (it).uv1, srgb) : vec4(1.0))
+    (HAS_TEXTURES && (use).texture != NONE ? texture_value(use, (it).uv0, (it).uv1, srgb) : vec4(1.0))
 const bool SRGB = true;
 const bool LINEAR = false;
+#endif
 
 #endif

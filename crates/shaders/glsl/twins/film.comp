@@ -20,6 +20,7 @@ struct Input {
     PixelSums start;
     uvec2 pixel;
     Sample samples[SAMPLES];
+    uint unused[2];
 };
 struct Output {
     PixelSums sums;

@@ -3,7 +3,10 @@
 //! A kernel of `crates/shaders/glsl/twins` evaluates the shader's side; each file here is named after the kernel and evaluates
 //! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
 
+mod columns;
+mod film;
 mod hash;
+mod sampler;
 
 use bytemuck::Pod;
 use lumbre_vulkan::Specialisation;
@@ -18,7 +21,17 @@ pub(crate) use kernel;
 
 /// What a kernel says to the inputs; `None` where there is no device. `tables` is what the kernel reads as `push.tables`.
 pub(crate) fn evaluate<I: Pod, O: Pod>(spirv: &[u8], tables: &[u8], inputs: &[I]) -> Option<Vec<O>> {
+    evaluate_with(spirv, tables, &Specialisation::new(), inputs)
+}
+
+/// The same with specialisation constants.
+pub(crate) fn evaluate_with<I: Pod, O: Pod>(
+    spirv: &[u8],
+    tables: &[u8],
+    constants: &Specialisation,
+    inputs: &[I],
+) -> Option<Vec<O>> {
     let gpu = lumbre_testkit::gpu()?;
-    let kernel = gpu.kernel(spirv, tables, &Specialisation::new()).unwrap_or_else(|e| panic!("{e}"));
+    let kernel = gpu.kernel(spirv, tables, constants).unwrap_or_else(|e| panic!("{e}"));
     Some(kernel.run(inputs).unwrap_or_else(|e| panic!("{e}")))
 }

@@ -1,0 +1,77 @@
+//! What the path tracer's pipeline is specialised for: settings of the render, and what its scene has, so that shaders carry neither code
+//! nor registers for what is not there. Twins: `glsl/variants.glsl`, `glsl/bsdf/features.glsl`.
+
+use crate::Specialisation;
+use lumbre_core::bsdf::DiffuseSampling;
+use lumbre_core::sampler::SamplerKind;
+use lumbre_core::settings::{RenderSettings, TransmissiveShadows};
+use lumbre_scene::CompiledScene;
+use lumbre_scene::compiled::NONE;
+use lumbre_scene::compiled::lights::{LightGroup, kind};
+use lumbre_scene::compiled::material::{LobesRecord, MaterialRecord, TextureUse, flag};
+
+/// The constants for a scene and the settings of a render.
+pub(super) fn specialisation(scene: &CompiledScene, settings: &RenderSettings, images: bool) -> Specialisation {
+    let constants = settings_constants(Specialisation::new(), settings);
+    let constants = light_constants(constants, scene);
+    let constants = material_constants(constants, scene, images);
+    let any = |has: fn(&LobesRecord) -> bool| scene.lobes.iter().any(has);
+    constants
+        .bool(15, any(|l| !l.sheen_color.is_black()))
+        .bool(16, any(|l| l.coat > 0.0))
+        .bool(17, any(|l| l.iridescence > 0.0))
+        .bool(18, any(|l| l.anisotropy > 0.0))
+        .bool(19, any(|l| l.diffuse_roughness > 0.0))
+        .bool(20, any(|l| l.diffuse_transmission > 0.0))
+        .bool(61, !scene.lobes.is_empty())
+}
+
+fn settings_constants(constants: Specialisation, settings: &RenderSettings) -> Specialisation {
+    let shadows = match settings.transmissive_shadows {
+        TransmissiveShadows::Auto => 0,
+        TransmissiveShadows::Physical => 1,
+        TransmissiveShadows::Straight => 2,
+    };
+    let sampler = match settings.sampler {
+        SamplerKind::Sobol => 0,
+        SamplerKind::Independent => 1,
+    };
+    constants
+        .bool(0, settings.light_sampling)
+        .uint(1, shadows)
+        .bool(2, settings.shade_back_faces)
+        .bool(3, settings.transparent_background)
+        .bool(4, settings.clamp.is_some())
+        .bool(21, settings.diffuse_sampling == DiffuseSampling::Uniform)
+        .uint(30, sampler)
+}
+
+fn light_constants(constants: Specialisation, scene: &CompiledScene) -> Specialisation {
+    let any = |kinds: &[u32]| scene.lights.iter().any(|l| kinds.contains(&l.kind));
+    constants
+        .bool(50, scene.has_lights(LightGroup::Near))
+        .bool(51, scene.has_lights(LightGroup::Far))
+        .bool(52, any(&[kind::TRIANGLE]))
+        .bool(53, any(&[kind::POINT, kind::SPOT, kind::DIRECTIONAL]))
+        .bool(54, scene.sun.light != NONE)
+        .bool(55, scene.environment.light != NONE)
+}
+
+fn material_constants(constants: Specialisation, scene: &CompiledScene, images: bool) -> Specialisation {
+    let any = |has: &dyn Fn(&MaterialRecord) -> bool| scene.materials.iter().any(has);
+    let flagged = |bit: u32| any(&|m| m.has(bit));
+    let used = |t: &TextureUse| !t.is_none();
+    let coats = scene.lobes.iter().any(|l| used(&l.coat_normal_texture));
+    constants
+        .bool(10, any(&|m| m.metallic > 0.0))
+        .bool(11, any(&|m| m.specular > 0.0 && !m.has(flag::PHONG)))
+        .bool(12, flagged(flag::PHONG))
+        .bool(13, flagged(flag::SOLID))
+        .bool(14, any(&|m| m.transmission > 0.0 && !m.has(flag::SOLID)))
+        .bool(56, !scene.textures.is_empty())
+        .bool(57, coats || any(&|m| used(&m.normal_texture)))
+        .bool(58, flagged(flag::SHADOW_CATCHER))
+        .bool(59, flagged(flag::DISPERSION))
+        .bool(60, any(&|m| m.transmission > 0.0))
+        .bool(62, flagged(flag::UNLIT))
+}
