@@ -8,11 +8,8 @@ pub mod camera;
 pub mod film;
 pub mod layout;
 pub mod medium;
-<<<<<<< HEAD
-pub mod replay;
-=======
 pub mod post;
->>>>>>> physics
+pub mod replay;
 pub mod tables;
 pub mod view;
 

@@ -10,11 +10,8 @@ mod adapters;
 mod buffer;
 mod cache;
 mod commands;
-<<<<<<< HEAD
-mod descriptors;
-=======
 mod compute;
->>>>>>> physics
+mod descriptors;
 mod error;
 mod features;
 mod gpu;
@@ -24,14 +21,11 @@ mod kernel;
 mod memory;
 mod path;
 mod pipeline;
-<<<<<<< HEAD
+mod post;
 mod ray_pipeline;
 mod replay;
 mod sbt;
 mod scene;
-=======
-mod post;
->>>>>>> physics
 mod specialisation;
 #[cfg(test)]
 mod tests;
@@ -49,14 +43,11 @@ pub use gpu::{Gpu, Options};
 pub use instance::Validation;
 pub use kernel::Kernel;
 pub use memory::MemoryUse;
-<<<<<<< HEAD
 pub use path::{Frames, PassTime, VulkanBackend};
+pub use post::Post;
 pub use ray_pipeline::{HitShaders, RayPipeline, RayShaders};
 pub use replay::Replay;
 pub use scene::{SceneOnGpu, SceneOptions};
-=======
-pub use post::Post;
->>>>>>> physics
 pub use specialisation::Specialisation;
 pub use timer::Timer;
 pub use upload::Upload;

@@ -4,8 +4,8 @@ use lumbre_core::Film;
 use lumbre_core::settings::View;
 use lumbre_cpu::CpuBackend;
 use lumbre_scene::CompiledScene;
-use lumbre_testkit::{TestGpu, gpu};
 use lumbre_testkit::paired::Paired;
+use lumbre_testkit::{TestGpu, gpu};
 use lumbre_vulkan::{SceneOptions, VulkanBackend};
 
 /// A scene on both devices.

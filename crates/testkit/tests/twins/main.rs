@@ -3,24 +3,18 @@
 //! A kernel of `crates/shaders/glsl/twins` evaluates the shader's side; each file here is named after the kernel and evaluates
 //! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
 
-<<<<<<< HEAD
 mod bsdf;
-=======
 mod camera;
->>>>>>> physics
 mod columns;
 mod environment;
 mod film;
 mod fresnel;
 mod hash;
-<<<<<<< HEAD
-mod math;
-mod microfacet;
-=======
 mod lights;
+mod math;
 mod medium;
+mod microfacet;
 mod post;
->>>>>>> physics
 mod sampler;
 mod tone;
 mod warp;
