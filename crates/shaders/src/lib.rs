@@ -9,6 +9,7 @@ pub mod film;
 pub mod layout;
 pub mod medium;
 pub mod post;
+pub mod replay;
 pub mod tables;
 pub mod view;
 

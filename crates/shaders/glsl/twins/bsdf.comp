@@ -24,9 +24,6 @@ struct Output {
     float sample_pdf;
     uint lobe;
     float eta_scale;
-    // Value and density for the direction drawn; 0 without one.
-    vec3 f_drawn;
-    float pdf_drawn;
     // The rest of what a surface is asked.
     vec3 albedo;
     vec3 thin_transmittance;
@@ -66,11 +63,6 @@ void main() {
     o.sample_pdf = drawn.pdf;
     o.lobe = drawn.lobe;
     o.eta_scale = drawn.eta_scale;
-    o.f_drawn = vec3(0.0);
-    o.pdf_drawn = 0.0;
-    if (found) {
-        o.f_drawn = bsdf_eval_pdf(bsdf, it.wo, drawn.wi, it.mode, o.pdf_drawn);
-    }
     o.albedo = bsdf_albedo(bsdf);
     o.thin_transmittance = bsdf_thin_transmittance(bsdf, it.wo);
     o.straight_transmittance = bsdf_straight_transmittance(bsdf, it.wo);

@@ -3,13 +3,17 @@
 //! A kernel of `crates/shaders/glsl/twins` evaluates the shader's side; each file here is named after the kernel and evaluates
 //! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
 
+mod bsdf;
 mod camera;
 mod columns;
 mod environment;
 mod film;
+mod fresnel;
 mod hash;
 mod lights;
+mod math;
 mod medium;
+mod microfacet;
 mod post;
 mod sampler;
 mod tone;
