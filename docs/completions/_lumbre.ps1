@@ -30,6 +30,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('compare', 'compare', [CompletionResultType]::ParameterValue, 'Measure how much a picture differs from a reference')
             [CompletionResult]::new('merge', 'merge', [CompletionResultType]::ParameterValue, 'Add parts of one render, made apart, to the picture of one run')
             [CompletionResult]::new('devices', 'devices', [CompletionResultType]::ParameterValue, 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks')
+            [CompletionResult]::new('bench', 'bench', [CompletionResultType]::ParameterValue, 'Measure frames per second, rays per second and their like, as tables')
             [CompletionResult]::new('completions', 'completions', [CompletionResultType]::ParameterValue, 'Print what makes a shell complete the flags of this program')
             [CompletionResult]::new('man', 'man', [CompletionResultType]::ParameterValue, 'Print the manual page, or write one for each command')
             [CompletionResult]::new('help', 'help', [CompletionResultType]::ParameterValue, 'Print this message or the help of the given subcommand(s)')
@@ -165,6 +166,59 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help')
             break
         }
+        'lumbre;bench' {
+            [CompletionResult]::new('--camera', '--camera', [CompletionResultType]::ParameterName, 'Camera of the scenes, by name. May be given several times. [default: each camera; the whole scene in view where there is none]')
+            [CompletionResult]::new('--look-from', '--look-from', [CompletionResultType]::ParameterName, 'Puts the eye here, metres')
+            [CompletionResult]::new('--look-at', '--look-at', [CompletionResultType]::ParameterName, 'Turns the camera to this point, metres')
+            [CompletionResult]::new('--fov', '--fov', [CompletionResultType]::ParameterName, 'Vertical field of view, degrees')
+            [CompletionResult]::new('--sizes', '--sizes', [CompletionResultType]::ParameterName, 'Sizes of the picture. [default: those of the table, else 1280x720]')
+            [CompletionResult]::new('--depths', '--depths', [CompletionResultType]::ParameterName, 'Depths, each the most scattering events on a path. [default: those of the table, else --max-depth]')
+            [CompletionResult]::new('--samples', '--samples', [CompletionResultType]::ParameterName, 'Samples of each pixel in a frame. [default: those of the table, else 1]')
+            [CompletionResult]::new('--frames', '--frames', [CompletionResultType]::ParameterName, 'Frames that count')
+            [CompletionResult]::new('--warm-up', '--warm-up', [CompletionResultType]::ParameterName, 'Frames before them')
+            [CompletionResult]::new('--budget', '--budget', [CompletionResultType]::ParameterName, 'Most time for the frames of one figure; one frame is always taken')
+            [CompletionResult]::new('--spp', '--spp', [CompletionResultType]::ParameterName, 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]')
+            [CompletionResult]::new('--time', '--time', [CompletionResultType]::ParameterName, 'Time for each device in `equal-time`')
+            [CompletionResult]::new('--max-depth', '--max-depth', [CompletionResultType]::ParameterName, 'Most scattering events on a path')
+            [CompletionResult]::new('--roulette', '--roulette', [CompletionResultType]::ParameterName, 'First scattering event after which Russian roulette may end a path')
+            [CompletionResult]::new('--sampler', '--sampler', [CompletionResultType]::ParameterName, 'Random stream')
+            [CompletionResult]::new('--seed', '--seed', [CompletionResultType]::ParameterName, 'Seed of the random stream: another one gives other noise')
+            [CompletionResult]::new('--filter', '--filter', [CompletionResultType]::ParameterName, 'Pixel filter')
+            [CompletionResult]::new('--light-sampling', '--light-sampling', [CompletionResultType]::ParameterName, 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never')
+            [CompletionResult]::new('--transmissive-shadows', '--transmissive-shadows', [CompletionResultType]::ParameterName, 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint')
+            [CompletionResult]::new('--back-faces', '--back-faces', [CompletionResultType]::ParameterName, 'Whether camera rays see the back of single-sided opaque surfaces')
+            [CompletionResult]::new('--clamp', '--clamp', [CompletionResultType]::ParameterName, 'Most that light which has scattered twice or more may add to a sample at a time, nits (biased: it takes bright dots away, and light with them). [default: no limit]')
+            [CompletionResult]::new('--hemisphere', '--hemisphere', [CompletionResultType]::ParameterName, 'How diffuse directions are drawn (for comparisons)')
+            [CompletionResult]::new('--sky', '--sky', [CompletionResultType]::ParameterName, 'What fills the sky: one radiance (R,G,B linear in nits, or #rrggbb sRGB), a plain `gradient` with a mean near 1, or nothing. [default: what the scene has; the gradient if nothing in it gives light]')
+            [CompletionResult]::new('--sun', '--sun', [CompletionResultType]::ParameterName, 'A sun: elevation above the horizon and azimuth from -z towards +x, degrees. STRENGTH is the illuminance on a surface that faces it, in lux on the scale of the scene''s lights; 15 by default, which makes a clear day with the gradient sky (a real clear noon is 100000 lux under a sky of some 5000 nits). Its light is slightly warm')
+            [CompletionResult]::new('--env', '--env', [CompletionResultType]::ParameterName, 'A latitude-longitude picture of radiance around the scene: .hdr or .exr. Its centre lies at -z')
+            [CompletionResult]::new('--env-rotate', '--env-rotate', [CompletionResultType]::ParameterName, 'Turns that picture to the right as seen from inside, degrees')
+            [CompletionResult]::new('--env-strength', '--env-strength', [CompletionResultType]::ParameterName, 'Factor on its radiance')
+            [CompletionResult]::new('--device', '--device', [CompletionResultType]::ParameterName, 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them')
+            [CompletionResult]::new('--threads', '--threads', [CompletionResultType]::ParameterName, 'Threads. [default: one for each processor]')
+            [CompletionResult]::new('--scene', '--scene', [CompletionResultType]::ParameterName, 'Which of the file''s scenes: its name, or its number from 0. [default: the one that the file names, else the first]')
+            [CompletionResult]::new('--variant', '--variant', [CompletionResultType]::ParameterName, 'Which of the file''s sets of materials, by name. [default: the materials that stand without one]')
+            [CompletionResult]::new('--asset-dir', '--asset-dir', [CompletionResultType]::ParameterName, 'Folder from which textures and other files that the scene names may be read too. May be given several times')
+            [CompletionResult]::new('--max-file-bytes', '--max-file-bytes', [CompletionResultType]::ParameterName, 'Bytes of one file, such as 4GiB. [default: 8GiB]')
+            [CompletionResult]::new('--max-json-bytes', '--max-json-bytes', [CompletionResultType]::ParameterName, 'Bytes of a scene''s JSON. [default: 256MiB]')
+            [CompletionResult]::new('--max-json-objects', '--max-json-objects', [CompletionResultType]::ParameterName, 'Objects in a scene''s JSON, of all kinds together. [default: 4194304]')
+            [CompletionResult]::new('--max-json-depth', '--max-json-depth', [CompletionResultType]::ParameterName, 'Lists and objects of a scene''s JSON inside one another, up to 127. [default: 64]')
+            [CompletionResult]::new('--max-buffer-bytes', '--max-buffer-bytes', [CompletionResultType]::ParameterName, 'Bytes of all buffers of a scene; also of all its encoded images. [default: 16GiB]')
+            [CompletionResult]::new('--max-image-side', '--max-image-side', [CompletionResultType]::ParameterName, 'Columns or rows of an image. [default: 32768]')
+            [CompletionResult]::new('--max-image-bytes', '--max-image-bytes', [CompletionResultType]::ParameterName, 'Bytes of one image once decoded. [default: 4GiB]')
+            [CompletionResult]::new('--max-total-image-bytes', '--max-total-image-bytes', [CompletionResultType]::ParameterName, 'Bytes of all images of a scene once decoded. [default: 16GiB]')
+            [CompletionResult]::new('--max-triangles', '--max-triangles', [CompletionResultType]::ParameterName, 'Triangles, each mesh counted once. [default: 500000000]')
+            [CompletionResult]::new('--max-vertices', '--max-vertices', [CompletionResultType]::ParameterName, 'Vertices, each mesh counted once. [default: 500000000]')
+            [CompletionResult]::new('--max-zero-filled', '--max-zero-filled', [CompletionResultType]::ParameterName, 'Elements of a glTF accessor that has no data of its own. [default: 1048576]')
+            [CompletionResult]::new('--max-instances', '--max-instances', [CompletionResultType]::ParameterName, 'Meshes that the nodes place in the world. [default: 16777216]')
+            [CompletionResult]::new('--max-node-depth', '--max-node-depth', [CompletionResultType]::ParameterName, 'Nodes beneath one another. [default: 1048576]')
+            [CompletionResult]::new('--markdown', '--markdown', [CompletionResultType]::ParameterName, 'Prints the table as Markdown')
+            [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Prints one JSON object; times in seconds or, where the key says so, milliseconds')
+            [CompletionResult]::new('--validation', '--validation', [CompletionResultType]::ParameterName, 'Lets Vulkan''s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            break
+        }
         'lumbre;completions' {
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help')
@@ -181,6 +235,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('compare', 'compare', [CompletionResultType]::ParameterValue, 'Measure how much a picture differs from a reference')
             [CompletionResult]::new('merge', 'merge', [CompletionResultType]::ParameterValue, 'Add parts of one render, made apart, to the picture of one run')
             [CompletionResult]::new('devices', 'devices', [CompletionResultType]::ParameterValue, 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks')
+            [CompletionResult]::new('bench', 'bench', [CompletionResultType]::ParameterValue, 'Measure frames per second, rays per second and their like, as tables')
             [CompletionResult]::new('completions', 'completions', [CompletionResultType]::ParameterValue, 'Print what makes a shell complete the flags of this program')
             [CompletionResult]::new('man', 'man', [CompletionResultType]::ParameterValue, 'Print the manual page, or write one for each command')
             [CompletionResult]::new('help', 'help', [CompletionResultType]::ParameterValue, 'Print this message or the help of the given subcommand(s)')
@@ -199,6 +254,9 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             break
         }
         'lumbre;help;devices' {
+            break
+        }
+        'lumbre;help;bench' {
             break
         }
         'lumbre;help;completions' {

@@ -27,6 +27,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand compare 'Measure how much a picture differs from a reference'
             cand merge 'Add parts of one render, made apart, to the picture of one run'
             cand devices 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
+            cand bench 'Measure frames per second, rays per second and their like, as tables'
             cand completions 'Print what makes a shell complete the flags of this program'
             cand man 'Print the manual page, or write one for each command'
             cand help 'Print this message or the help of the given subcommand(s)'
@@ -156,6 +157,58 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand -h 'Print help'
             cand --help 'Print help'
         }
+        &'lumbre;bench'= {
+            cand --camera 'Camera of the scenes, by name. May be given several times. [default: each camera; the whole scene in view where there is none]'
+            cand --look-from 'Puts the eye here, metres'
+            cand --look-at 'Turns the camera to this point, metres'
+            cand --fov 'Vertical field of view, degrees'
+            cand --sizes 'Sizes of the picture. [default: those of the table, else 1280x720]'
+            cand --depths 'Depths, each the most scattering events on a path. [default: those of the table, else --max-depth]'
+            cand --samples 'Samples of each pixel in a frame. [default: those of the table, else 1]'
+            cand --frames 'Frames that count'
+            cand --warm-up 'Frames before them'
+            cand --budget 'Most time for the frames of one figure; one frame is always taken'
+            cand --spp 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]'
+            cand --time 'Time for each device in `equal-time`'
+            cand --max-depth 'Most scattering events on a path'
+            cand --roulette 'First scattering event after which Russian roulette may end a path'
+            cand --sampler 'Random stream'
+            cand --seed 'Seed of the random stream: another one gives other noise'
+            cand --filter 'Pixel filter'
+            cand --light-sampling 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never'
+            cand --transmissive-shadows 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint'
+            cand --back-faces 'Whether camera rays see the back of single-sided opaque surfaces'
+            cand --clamp 'Most that light which has scattered twice or more may add to a sample at a time, nits (biased: it takes bright dots away, and light with them). [default: no limit]'
+            cand --hemisphere 'How diffuse directions are drawn (for comparisons)'
+            cand --sky 'What fills the sky: one radiance (R,G,B linear in nits, or #rrggbb sRGB), a plain `gradient` with a mean near 1, or nothing. [default: what the scene has; the gradient if nothing in it gives light]'
+            cand --sun 'A sun: elevation above the horizon and azimuth from -z towards +x, degrees. STRENGTH is the illuminance on a surface that faces it, in lux on the scale of the scene''s lights; 15 by default, which makes a clear day with the gradient sky (a real clear noon is 100000 lux under a sky of some 5000 nits). Its light is slightly warm'
+            cand --env 'A latitude-longitude picture of radiance around the scene: .hdr or .exr. Its centre lies at -z'
+            cand --env-rotate 'Turns that picture to the right as seen from inside, degrees'
+            cand --env-strength 'Factor on its radiance'
+            cand --device 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them'
+            cand --threads 'Threads. [default: one for each processor]'
+            cand --scene 'Which of the file''s scenes: its name, or its number from 0. [default: the one that the file names, else the first]'
+            cand --variant 'Which of the file''s sets of materials, by name. [default: the materials that stand without one]'
+            cand --asset-dir 'Folder from which textures and other files that the scene names may be read too. May be given several times'
+            cand --max-file-bytes 'Bytes of one file, such as 4GiB. [default: 8GiB]'
+            cand --max-json-bytes 'Bytes of a scene''s JSON. [default: 256MiB]'
+            cand --max-json-objects 'Objects in a scene''s JSON, of all kinds together. [default: 4194304]'
+            cand --max-json-depth 'Lists and objects of a scene''s JSON inside one another, up to 127. [default: 64]'
+            cand --max-buffer-bytes 'Bytes of all buffers of a scene; also of all its encoded images. [default: 16GiB]'
+            cand --max-image-side 'Columns or rows of an image. [default: 32768]'
+            cand --max-image-bytes 'Bytes of one image once decoded. [default: 4GiB]'
+            cand --max-total-image-bytes 'Bytes of all images of a scene once decoded. [default: 16GiB]'
+            cand --max-triangles 'Triangles, each mesh counted once. [default: 500000000]'
+            cand --max-vertices 'Vertices, each mesh counted once. [default: 500000000]'
+            cand --max-zero-filled 'Elements of a glTF accessor that has no data of its own. [default: 1048576]'
+            cand --max-instances 'Meshes that the nodes place in the world. [default: 16777216]'
+            cand --max-node-depth 'Nodes beneath one another. [default: 1048576]'
+            cand --markdown 'Prints the table as Markdown'
+            cand --json 'Prints one JSON object; times in seconds or, where the key says so, milliseconds'
+            cand --validation 'Lets Vulkan''s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program'
+            cand -h 'Print help (see more with ''--help'')'
+            cand --help 'Print help (see more with ''--help'')'
+        }
         &'lumbre;completions'= {
             cand -h 'Print help'
             cand --help 'Print help'
@@ -170,6 +223,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand compare 'Measure how much a picture differs from a reference'
             cand merge 'Add parts of one render, made apart, to the picture of one run'
             cand devices 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
+            cand bench 'Measure frames per second, rays per second and their like, as tables'
             cand completions 'Print what makes a shell complete the flags of this program'
             cand man 'Print the manual page, or write one for each command'
             cand help 'Print this message or the help of the given subcommand(s)'
@@ -183,6 +237,8 @@ set edit:completion:arg-completer[lumbre] = {|@words|
         &'lumbre;help;merge'= {
         }
         &'lumbre;help;devices'= {
+        }
+        &'lumbre;help;bench'= {
         }
         &'lumbre;help;completions'= {
         }

@@ -31,6 +31,7 @@ complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "info" -d 'Say what a 
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "compare" -d 'Measure how much a picture differs from a reference'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "devices" -d 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
+complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "bench" -d 'Measure frames per second, rays per second and their like, as tables'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "man" -d 'Print the manual page, or write one for each command'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
@@ -155,13 +156,72 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l keep-sums -d 'Th
 complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c lumbre -n "__fish_lumbre_using_subcommand devices" -l json -d 'Prints one JSON object; memory in bytes'
 complete -c lumbre -n "__fish_lumbre_using_subcommand devices" -s h -l help -d 'Print help'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l camera -d 'Camera of the scenes, by name. May be given several times. [default: each camera; the whole scene in view where there is none]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l look-from -d 'Puts the eye here, metres' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l look-at -d 'Turns the camera to this point, metres' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l fov -d 'Vertical field of view, degrees' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sizes -d 'Sizes of the picture. [default: those of the table, else 1280x720]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l depths -d 'Depths, each the most scattering events on a path. [default: those of the table, else --max-depth]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l samples -d 'Samples of each pixel in a frame. [default: those of the table, else 1]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l frames -d 'Frames that count' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l warm-up -d 'Frames before them' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l budget -d 'Most time for the frames of one figure; one frame is always taken' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l spp -d 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l time -d 'Time for each device in `equal-time`' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-depth -d 'Most scattering events on a path' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l roulette -d 'First scattering event after which Russian roulette may end a path' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sampler -d 'Random stream' -r -f -a "sobol\t'Owen-scrambled Sobol points: converges faster'
+independent\t'Independent random numbers'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l seed -d 'Seed of the random stream: another one gives other noise' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l filter -d 'Pixel filter' -r -f -a "box\t'Exactly one pixel'
+tent\t'Radius of one pixel'
+gaussian\t'Standard deviation of half a pixel, radius 1.5'
+blackman-harris\t'Radius 1.5 pixels'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l light-sampling -d 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never' -r -f -a "on\t''
+off\t''"
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l transmissive-shadows -d 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint' -r -f -a "auto\t'Solid glass lets the light of point lights and the sun through straight, with its tint'
+physical\t'Solid glass blocks: caustics come from scattered rays alone'
+straight\t'Solid glass lets all light through straight'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l back-faces -d 'Whether camera rays see the back of single-sided opaque surfaces' -r -f -a "cull\t'Nothing, as glTF asks'
+shade\t'The surface'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l clamp -d 'Most that light which has scattered twice or more may add to a sample at a time, nits (biased: it takes bright dots away, and light with them). [default: no limit]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l hemisphere -d 'How diffuse directions are drawn (for comparisons)' -r -f -a "cosine\t'In proportion to the cosine'
+uniform\t'Uniformly: noisier'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sky -d 'What fills the sky: one radiance (R,G,B linear in nits, or #rrggbb sRGB), a plain `gradient` with a mean near 1, or nothing. [default: what the scene has; the gradient if nothing in it gives light]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sun -d 'A sun: elevation above the horizon and azimuth from -z towards +x, degrees. STRENGTH is the illuminance on a surface that faces it, in lux on the scale of the scene\'s lights; 15 by default, which makes a clear day with the gradient sky (a real clear noon is 100000 lux under a sky of some 5000 nits). Its light is slightly warm' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l env -d 'A latitude-longitude picture of radiance around the scene: .hdr or .exr. Its centre lies at -z' -r -F
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l env-rotate -d 'Turns that picture to the right as seen from inside, degrees' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l env-strength -d 'Factor on its radiance' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l device -d 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l threads -d 'Threads. [default: one for each processor]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l scene -d 'Which of the file\'s scenes: its name, or its number from 0. [default: the one that the file names, else the first]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l variant -d 'Which of the file\'s sets of materials, by name. [default: the materials that stand without one]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l asset-dir -d 'Folder from which textures and other files that the scene names may be read too. May be given several times' -r -F
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-file-bytes -d 'Bytes of one file, such as 4GiB. [default: 8GiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-json-bytes -d 'Bytes of a scene\'s JSON. [default: 256MiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-json-objects -d 'Objects in a scene\'s JSON, of all kinds together. [default: 4194304]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-json-depth -d 'Lists and objects of a scene\'s JSON inside one another, up to 127. [default: 64]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-buffer-bytes -d 'Bytes of all buffers of a scene; also of all its encoded images. [default: 16GiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-image-side -d 'Columns or rows of an image. [default: 32768]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-image-bytes -d 'Bytes of one image once decoded. [default: 4GiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-total-image-bytes -d 'Bytes of all images of a scene once decoded. [default: 16GiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-triangles -d 'Triangles, each mesh counted once. [default: 500000000]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-vertices -d 'Vertices, each mesh counted once. [default: 500000000]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-zero-filled -d 'Elements of a glTF accessor that has no data of its own. [default: 1048576]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-instances -d 'Meshes that the nodes place in the world. [default: 16777216]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-node-depth -d 'Nodes beneath one another. [default: 1048576]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l markdown -d 'Prints the table as Markdown'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l json -d 'Prints one JSON object; times in seconds or, where the key says so, milliseconds'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l validation -d 'Lets Vulkan\'s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c lumbre -n "__fish_lumbre_using_subcommand completions" -s h -l help -d 'Print help'
 complete -c lumbre -n "__fish_lumbre_using_subcommand man" -s h -l help -d 'Print help'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "render" -d 'Render a scene to a picture'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "info" -d 'Say what a scene holds, what it takes, and why its picture might be black'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "compare" -d 'Measure how much a picture differs from a reference'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "devices" -d 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "man" -d 'Print the manual page, or write one for each command'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices completions man help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "render" -d 'Render a scene to a picture'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "info" -d 'Say what a scene holds, what it takes, and why its picture might be black'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "compare" -d 'Measure how much a picture differs from a reference'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "devices" -d 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "bench" -d 'Measure frames per second, rays per second and their like, as tables'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "man" -d 'Print the manual page, or write one for each command'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'

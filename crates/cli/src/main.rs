@@ -1,6 +1,7 @@
 //! The `lumbre` command: flags in, pictures out, and an exit code that says how it went.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod compare;
 mod console;
 mod device;
@@ -10,6 +11,7 @@ mod flags;
 mod generate;
 mod info;
 mod interrupt;
+mod lit;
 mod memory;
 mod merge;
 mod outputs;
@@ -40,6 +42,7 @@ fn run(command: Command) -> Result<Code, Failure> {
         Command::Render(mut args) => render::run(&mut args),
         Command::Info(args) => info::run(&args),
         Command::Devices(args) => devices::run(&args),
+        Command::Bench(args) => bench::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man(args) => generate::man(&args),

@@ -69,9 +69,26 @@ impl Exposure {
     }
 }
 
-/// Mean luminance of each block of the picture, about 40 blocks across; blocks without a finite pixel are left out.
+/// A factor of exposure on its way from the last frame's to `target`, for pictures that follow one another: `share` (0 to 1) of the way
+/// in the logarithm, so that getting brighter takes as long as getting darker.
+pub fn exposure_eased(previous: f32, target: f32, share: f32) -> f32 {
+    if share >= 1.0 { target } else { previous * pow(target / previous, share) }
+}
+
+/// The share of the way that a frame of `seconds` goes, so that all but 1/e of it is gone after `time_constant` seconds, at whatever
+/// rate frames come. A time constant of 0 goes all the way.
+pub fn ease_share(seconds: f32, time_constant: f32) -> f32 {
+    if time_constant > 0.0 { 1.0 - exp(-seconds.max(0.0) / time_constant) } else { 1.0 }
+}
+
+/// Side of the blocks, pixels, through which automatic exposure sees a picture of this width: about 40 across.
+pub fn block_side(width: usize) -> usize {
+    (width / 40).max(1)
+}
+
+/// Mean luminance of each block of the picture; blocks without a finite pixel are left out.
 fn block_means(pixels: &[Rgb], width: usize) -> Vec<f32> {
-    let side = (width / 40).max(1);
+    let side = block_side(width);
     let columns = width.div_ceil(side);
     let rows: Vec<&[Rgb]> = pixels.chunks(width.max(1)).collect();
     let block = |rows: &[&[Rgb]], column: usize| {
@@ -120,5 +137,19 @@ mod tests {
         assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(0.25)], 1), 2.0);
         assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(9.0)], 1), 0.5);
         assert_eq!(Exposure::Thesis.factor(&[Rgb::splat(0.001)], 1), 5.0);
+    }
+
+    #[test]
+    fn exposure_eases_alike_at_every_frame_rate() {
+        assert_eq!(exposure_eased(3.0, 7.0, 1.0), 7.0);
+        assert!((exposure_eased(1.0, 4.0, 0.5) - 2.0).abs() < 1e-6);
+        let after_a_second = |frames: u16| {
+            let share = ease_share(1.0 / f32::from(frames), 0.5);
+            (0..frames).fold(1.0, |factor, _| exposure_eased(factor, 16.0, share))
+        };
+        // All but e⁻² of four stops.
+        let want = exp2(4.0 * (1.0 - exp(-2.0)));
+        assert!([1, 7, 60].iter().all(|n| (after_a_second(*n) / want - 1.0).abs() < 1e-4));
+        assert_eq!(ease_share(0.01, 0.0), 1.0);
     }
 }

@@ -5,7 +5,7 @@ use crate::color::srgb_encode;
 use crate::math::{ln, pow};
 use crate::rgb::Rgb;
 
-/// How radiance becomes the values of a display.
+/// How radiance becomes the values of a display. Shaders number the curves in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum ToneCurve {
     /// Clipped at 1, then the power 1/2.2: what the theses do.
@@ -155,6 +155,9 @@ pub fn neutral(c: Rgb) -> Rgb {
 pub fn vignette(strength: f32, [x, y]: [f32; 2]) -> f32 {
     (1.0 - strength * (x * x + y * y)).max(0.0)
 }
+
+/// Most aberration, per cent, either way.
+pub const MAX_ABERRATION: f32 = 50.0;
 
 /// The factor by which one band is enlarged about the centre of the picture: red by 1 + a, blue by 1 - a, green stays.
 /// `aberration` is in per cent of the distance from the centre.

@@ -26,7 +26,7 @@ pub struct Look {
 
 impl Look {
     /// Most of [`Look::aberration`], per cent.
-    pub const MAX_ABERRATION: f32 = 50.0;
+    pub const MAX_ABERRATION: f32 = lumbre_core::tone::MAX_ABERRATION;
 
     /// The factor of its exposure on this film. The lens does not change it.
     pub fn exposure_factor(&self, film: &Film) -> f32 {

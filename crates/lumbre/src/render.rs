@@ -8,8 +8,11 @@ use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
 use std::time::Instant;
 
-/// Most samples between two looks at the picture.
+/// Most samples between two looks at the picture where they may end the render.
 const LONGEST_STEP: u32 = 16;
+/// Seconds up to which more samples than that are taken at a time where looks are for people only: a fast device would spend more
+/// time on looks, and on bringing the film to them, than on samples.
+const LONG_STEP: f64 = 0.5;
 /// Seconds that a pass should take at most, so that a time limit, an observer and the display of the error are served soon; a
 /// pass takes one sample of each pixel at least.
 const LONGEST_PASS: f64 = 1.0;
@@ -138,10 +141,22 @@ impl Run {
         Some(if left > 0.0 && left < one && one < left + LATE { 1 } else { fitting(left, one) })
     }
 
+    /// Samples between looks: a power of two.
+    fn step(&self) -> u32 {
+        match (self.targets.error, self.per_sample) {
+            // The same looks on every machine: the same samples then end it.
+            (Some(_), _) | (None, None) => LONGEST_STEP,
+            (None, Some(one)) => match fitting(LONG_STEP, one).clamp(LONGEST_STEP, 1 << 20) {
+                most if most.is_power_of_two() => most,
+                most => most.next_power_of_two() / 2,
+            },
+        }
+    }
+
     /// Samples of the next pass: up to the next look at the picture, within the bounds of time.
     fn length(&self) -> u32 {
         let spp = self.so_far.spp;
-        let to_look = next_look(spp).min(self.targets.most()) - spp;
+        let to_look = next_look(spp, self.step()).min(self.targets.most()) - spp;
         let short = self.per_sample.map_or(1, |s| fitting(LONGEST_PASS, s).max(1));
         to_look.min(short).min(self.room().unwrap_or(u32::MAX).max(1))
     }
@@ -201,18 +216,14 @@ fn fitting(seconds: f64, one: f64) -> u32 {
     (seconds.max(0.0) / one.max(1e-12)) as u32
 }
 
-/// The error is looked at after 1, 2, 4, 8, 16, 32, 48, … samples per pixel: all powers of two, as the estimate wants them, and
-/// often enough to end soon after a target is met.
-fn next_look(spp: u32) -> u32 {
-    if spp < LONGEST_STEP {
-        (spp + 1).next_power_of_two()
-    } else {
-        (spp / LONGEST_STEP * LONGEST_STEP).saturating_add(LONGEST_STEP)
-    }
+/// With a step of 16, the error is looked at after 1, 2, 4, 8, 16, 32, 48, … samples per pixel: all powers of two, as the estimate
+/// wants them, and often enough to end soon after a target is met.
+fn next_look(spp: u32, step: u32) -> u32 {
+    if spp < step { (spp + 1).next_power_of_two() } else { (spp / step * step).saturating_add(step) }
 }
 
 fn is_look(spp: u32) -> bool {
-    spp > 0 && next_look(spp - 1) == spp
+    spp > 0 && next_look(spp - 1, LONGEST_STEP) == spp
 }
 
 fn sum(a: Progress, b: Progress) -> Progress {
@@ -303,7 +314,8 @@ mod tests {
     fn passes_cover_the_range_once_and_end_at_each_look() {
         for (first, spp) in [(0, 0), (5, 1), (0, 64), (7, 333), (u32::MAX - 20, 20)] {
             let noise = Noise::default();
-            let (outcome, film) = run(&noise, Targets::spp(spp).from_sample(first), &());
+            let targets = Targets::spp(spp).or_error(1e-12).from_sample(first);
+            let (outcome, film) = run(&noise, targets, &());
             assert_eq!((outcome.ended, outcome.spp), (Ended::Spp, spp));
             assert_eq!(outcome.progress.samples, 16 * 8 * u64::from(spp));
             assert!(film.pixels().iter().all(|p| p.samples() == spp));
@@ -316,6 +328,35 @@ mod tests {
         }
         let looks: Vec<u32> = (0..70).filter(|&n| is_look(n)).collect();
         assert_eq!(looks, [1, 2, 4, 8, 16, 32, 48, 64]);
+    }
+
+    /// Where no error ends a render, a fast device takes more samples at a time, to each power of two; a slow one does not.
+    #[test]
+    fn looks_for_people_are_as_far_apart_as_they_are_quick() {
+        let length = |targets: Targets, per_sample: f64, spp: u32| {
+            let estimator = Estimator::new(&Film::new(1, 1), &RenderSettings::default());
+            let so_far = SoFar { spp, ..SoFar::default() };
+            let began = Instant::now();
+            Run { targets, began, per_sample: Some(per_sample), estimator, looked_at: 0, so_far }.length()
+        };
+        let (free, bound) = (Targets::spp(1 << 30), Targets::spp(1 << 30).or_error(1e-9));
+        for (one, lengths) in [
+            (1e-9, [1, 1, 2, 16, 50, 1000]),
+            (0.5 / 64.0, [1, 1, 2, 16, 50, 40]),
+            (0.5 / 90.0, [1, 1, 2, 16, 50, 40]),
+            (0.5 / 16.0, [1, 1, 2, 16, 2, 8]),
+            (0.25, [1, 1, 2, 4, 2, 4]),
+            (3.0, [1; 6]),
+        ] {
+            let found = [0, 1, 2, 16, 78, 1048].map(|spp| length(free, one, spp));
+            assert_eq!(found, lengths, "{one} s for a sample");
+        }
+        assert_eq!([0, 1, 2, 16, 78, 1048].map(|spp| length(bound, 1e-9, spp)), [1, 1, 2, 16, 2, 8]);
+        // The passes of a free render: all powers of two among their ends.
+        let noise = Noise::default();
+        run(&noise, Targets::spp(300), &());
+        let ends: Vec<u32> = noise.asked.into_inner().unwrap().iter().map(|r| r.end).collect();
+        assert!([1, 2, 4, 8, 16, 32, 64, 128, 256, 300].iter().all(|p| ends.contains(p)), "{ends:?}");
     }
 
     #[test]

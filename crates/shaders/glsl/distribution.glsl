@@ -37,9 +37,10 @@ bool sample_cdf(Floats cdf, uint first, uint count, float u, out CdfSample chose
     }
     float low = cdf.at[first + end - 1u];
     float high = cdf.at[first + end];
-    // The middle of the step that `u` stands for.
-    float remainder = min((u - low + 0.5 / CDF_STEPS) / (high - low), ONE_MINUS_EPSILON);
-    chosen = CdfSample(end - 1u, high - low, remainder);
+    // The middle of the step that `u` stands for. `precise`: in this order the difference is exact.
+    precise float inside = u - low;
+    inside = inside + 0.5 / CDF_STEPS;
+    chosen = CdfSample(end - 1u, high - low, min(inside / (high - low), ONE_MINUS_EPSILON));
     return true;
 }
 

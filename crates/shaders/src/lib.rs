@@ -8,6 +8,8 @@ pub mod camera;
 pub mod film;
 pub mod layout;
 pub mod medium;
+pub mod post;
+pub mod replay;
 pub mod tables;
 pub mod view;
 
@@ -23,3 +25,9 @@ pub const RADIANCE_RMISS: &[u8] = include_bytes!("../spirv/path/radiance.rmiss.s
 pub const SHADOW_RAHIT: &[u8] = include_bytes!("../spirv/path/shadow.rahit.spv");
 /// Miss of a shadow ray.
 pub const SHADOW_RMISS: &[u8] = include_bytes!("../spirv/path/shadow.rmiss.spv");
+/// First pass from a film to a display: luminance of blocks.
+pub const POST_BLOCKS: &[u8] = include_bytes!("../spirv/post/blocks.comp.spv");
+/// Second pass: exposure.
+pub const POST_EXPOSURE: &[u8] = include_bytes!("../spirv/post/exposure.comp.spv");
+/// Last pass: lens and tone curve.
+pub const POST_DEVELOP: &[u8] = include_bytes!("../spirv/post/develop.comp.spv");

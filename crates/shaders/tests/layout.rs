@@ -1,4 +1,4 @@
-//! Structs that shaders and Rust share lie in memory alike: every member of every struct in the path tracer's SPIR-V stands where Rust
+//! Structs that shaders and Rust share lie in memory alike: every member of every struct in the SPIR-V of the path tracer and of the passes after it stands where Rust
 //! puts the field of that name.
 
 use lumbre_scene::compiled::geometry::{InstanceRecord, TransformKey, Vertex};
@@ -9,6 +9,7 @@ use lumbre_scene::compiled::material::{LobesRecord, MaterialRecord, TextureUse};
 use lumbre_shaders::camera::CameraRecord;
 use lumbre_shaders::layout::{GeometryRecord, MeshTable, SceneTable, TextureTable};
 use lumbre_shaders::medium::MediumStackRecord;
+use lumbre_shaders::post::PostPush;
 use lumbre_shaders::tables::Tables;
 use lumbre_shaders::view::{Push, ViewTable};
 use rspirv::dr::{Module, Operand};
@@ -63,6 +64,8 @@ fn rust() -> Vec<(&'static str, Members)> {
         fields!("MediumStack", MediumStackRecord { material, ior }),
         fields!("ViewTable", ViewTable { film, non_finite, rays, picture, origin, size, seed, frame, max_depth, roulette, clamp_to,
             filter_kind, camera, media, unused }),
+        fields!("PostPush", PostPush { film, blocks, state, display, size, block_side, block_count, exposure, factor, ease, tone, vignette,
+            center, half_diagonal, aberrates, scales, transparent }),
         fields!("Push", Push { tables, scene, view, first_pixel, first_sample, sample_count }),
         fields!("Tables", Tables { albedo_deficit, albedo_schlick_excess, albedo_deficit_average, albedo_schlick_average,
             sheen_directional, sheen_average, aniso_deficit, aniso_schlick_residual, aniso_deficit_average, aniso_schlick_average,
@@ -111,13 +114,16 @@ fn differences(structs: &BTreeMap<String, Members>, rust: &[(&str, Members)]) ->
     found
 }
 
-fn path_tracer() -> BTreeMap<String, Members> {
-    shader(&rspirv::dr::load_bytes(lumbre_shaders::PATH_RGEN).expect("SPIR-V"))
+fn shaders() -> BTreeMap<String, Members> {
+    let load = |spirv| shader(&rspirv::dr::load_bytes(spirv).expect("SPIR-V"));
+    let mut structs = load(lumbre_shaders::POST_DEVELOP);
+    structs.extend(load(lumbre_shaders::PATH_RGEN));
+    structs
 }
 
 #[test]
 fn shared_structs_lie_alike() {
-    let found = differences(&path_tracer(), &rust());
+    let found = differences(&shaders(), &rust());
     assert!(found.is_empty(), "{found:#?}");
 }
 
@@ -127,7 +133,7 @@ fn a_member_that_moved_is_found() {
         for field in fields.keys() {
             let mut disturbed = rust();
             *disturbed[moved].1.get_mut(field).unwrap() += 4;
-            assert_eq!(differences(&path_tracer(), &disturbed).len(), 1, "{name}.{field}");
+            assert_eq!(differences(&shaders(), &disturbed).len(), 1, "{name}.{field}");
         }
     }
     assert_eq!(differences(&BTreeMap::new(), &rust()).len(), rust().len());

@@ -89,7 +89,6 @@ impl Offer {
                 v12.shader_sampled_image_array_non_uniform_indexing,
             ),
             ("descriptorBindingPartiallyBound", v12.descriptor_binding_partially_bound),
-            ("descriptorBindingVariableDescriptorCount", v12.descriptor_binding_variable_descriptor_count),
             ("accelerationStructure", self.chain.acceleration.acceleration_structure),
             ("rayTracingPipeline", self.chain.pipeline.ray_tracing_pipeline),
         ];
@@ -130,7 +129,6 @@ impl Features {
                 .runtime_descriptor_array(true)
                 .shader_sampled_image_array_non_uniform_indexing(true)
                 .descriptor_binding_partially_bound(true)
-                .descriptor_binding_variable_descriptor_count(true)
                 .descriptor_binding_sampled_image_update_after_bind(self.update_after_bind),
             acceleration: vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default()
                 .acceleration_structure(true),

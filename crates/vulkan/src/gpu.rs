@@ -37,9 +37,7 @@ pub(crate) struct Shared {
     pub(crate) adapter: Adapter,
     pub(crate) limits: Limits,
     pub(crate) raw: ash::Device,
-    #[expect(dead_code, reason = "for what is built next")]
     pub(crate) acceleration: ash::khr::acceleration_structure::Device,
-    #[expect(dead_code, reason = "for what is built next")]
     pub(crate) pipelines: ash::khr::ray_tracing_pipeline::Device,
     pub(crate) queue: Mutex<vk::Queue>,
     /// Command buffers that wait for work.
@@ -53,7 +51,6 @@ pub(crate) struct Shared {
 
 /// How large things may be, and how they must lie.
 #[derive(Clone, Copy, Debug, Default)]
-#[expect(dead_code, reason = "for what is built next")]
 pub(crate) struct Limits {
     pub(crate) largest_allocation: u64,
     pub(crate) max_groups: u32,
@@ -62,7 +59,6 @@ pub(crate) struct Limits {
     pub(crate) handle_size: u32,
     pub(crate) handle_alignment: u32,
     pub(crate) base_alignment: u32,
-    pub(crate) scratch_alignment: u32,
     pub(crate) max_sampled_images: u32,
     pub(crate) max_image_side: u32,
     pub(crate) pipeline_cache_uuid: [u8; 16],
@@ -242,19 +238,27 @@ fn limits(instance: &ash::Instance, adapter: &Adapter) -> Limits {
     let mut v11 = vk::PhysicalDeviceVulkan11Properties::default();
     let mut v12 = vk::PhysicalDeviceVulkan12Properties::default();
     let mut pipeline = vk::PhysicalDeviceRayTracingPipelinePropertiesKHR::default();
-    let mut acceleration = vk::PhysicalDeviceAccelerationStructurePropertiesKHR::default();
     let mut all = vk::PhysicalDeviceProperties2::default()
         .push_next(&mut v11)
         .push_next(&mut v12)
-        .push_next(&mut pipeline)
-        .push_next(&mut acceleration);
+        .push_next(&mut pipeline);
     // SAFETY: an adapter of this instance that has what the structures belong to.
     unsafe { instance.get_physical_device_properties2(adapter.raw, &mut all) };
     let basic = all.properties;
+    let core = &basic.limits;
+    // Of images with samplers, by stage and by set; a few are left for what else a pipeline has.
     let images = if adapter.features.update_after_bind {
         v12.max_per_stage_descriptor_update_after_bind_sampled_images
+            .min(v12.max_per_stage_descriptor_update_after_bind_samplers)
+            .min(v12.max_per_stage_update_after_bind_resources)
+            .min(v12.max_descriptor_set_update_after_bind_sampled_images)
+            .min(v12.max_descriptor_set_update_after_bind_samplers)
     } else {
-        basic.limits.max_per_stage_descriptor_sampled_images
+        core.max_per_stage_descriptor_sampled_images
+            .min(core.max_per_stage_descriptor_samplers)
+            .min(core.max_per_stage_resources)
+            .min(core.max_descriptor_set_sampled_images)
+            .min(core.max_descriptor_set_samplers)
     };
     Limits {
         largest_allocation: v11.max_memory_allocation_size,
@@ -264,8 +268,7 @@ fn limits(instance: &ash::Instance, adapter: &Adapter) -> Limits {
         handle_size: pipeline.shader_group_handle_size,
         handle_alignment: pipeline.shader_group_handle_alignment,
         base_alignment: pipeline.shader_group_base_alignment,
-        scratch_alignment: acceleration.min_acceleration_structure_scratch_offset_alignment,
-        max_sampled_images: images,
+        max_sampled_images: images.saturating_sub(8),
         max_image_side: basic.limits.max_image_dimension2_d,
         pipeline_cache_uuid: basic.pipeline_cache_uuid,
         vendor: basic.vendor_id,

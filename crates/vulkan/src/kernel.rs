@@ -1,12 +1,11 @@
 //! Compute kernels that evaluate a function for a list of inputs: what tests of shader functions need.
 
 use crate::buffer::{Buffer, Purpose};
-use crate::error::{Called, VulkanError};
+use crate::compute::ComputePipeline;
+use crate::error::VulkanError;
 use crate::gpu::Gpu;
-use crate::pipeline::{Layout, ShaderModule};
 use crate::specialisation::Specialisation;
 use crate::upload::Upload;
-use ash::vk;
 use bytemuck::{Pod, Zeroable};
 
 /// Invocations in a group: `local_size_x` of `twins/kernel.glsl`.
@@ -25,8 +24,7 @@ struct Push {
 /// A compute shader made with `twins/kernel.glsl`.
 pub struct Kernel {
     gpu: Gpu,
-    pipeline: vk::Pipeline,
-    layout: Layout,
+    pipeline: ComputePipeline,
     tables: Buffer,
 }
 
@@ -44,20 +42,8 @@ impl Gpu {
         let mut upload = Upload::new(self);
         let tables = Buffer::with_content(&mut upload, "tables", tables)?;
         upload.finish()?;
-        let layout = Layout::new(self, &[], vk::ShaderStageFlags::COMPUTE, size_of::<Push>() as u32)?;
-        let module = ShaderModule::new(self, spirv)?;
-        let constants = constants.table();
-        let constants = constants.info();
-        let stage = vk::PipelineShaderStageCreateInfo::default()
-            .stage(vk::ShaderStageFlags::COMPUTE)
-            .module(module.raw)
-            .name(c"main")
-            .specialization_info(&constants);
-        let create = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout.raw)];
-        // SAFETY: module and layout are alive; the pipeline is destroyed by `drop`.
-        let made = unsafe { self.0.raw.create_compute_pipelines(vk::PipelineCache::null(), &create, None) };
-        let pipeline = made.map_err(|(_, error)| error).called("vkCreateComputePipelines")?[0];
-        Ok(Kernel { gpu: self.clone(), pipeline, layout, tables })
+        let pipeline = ComputePipeline::new(self, spirv, constants, size_of::<Push>() as u32)?;
+        Ok(Kernel { gpu: self.clone(), pipeline, tables })
     }
 }
 
@@ -89,13 +75,7 @@ impl Kernel {
             count: inputs.len() as u32,
         };
         gpu.run("a kernel", |commands| {
-            let device = &gpu.0.raw;
-            // SAFETY: the command buffer is being recorded; the pipeline and the buffers live until it was waited for.
-            unsafe {
-                device.cmd_bind_pipeline(commands.raw, vk::PipelineBindPoint::COMPUTE, self.pipeline);
-                self.layout.push(commands, bytemuck::bytes_of(&push));
-                device.cmd_dispatch(commands.raw, groups as u32, 1, 1);
-            }
+            self.pipeline.dispatch(commands, bytemuck::bytes_of(&push), [groups as u32, 1]);
             commands.barrier();
             commands.copy((&output, 0), (&result, 0), size);
             Ok(())
@@ -107,13 +87,4 @@ impl Kernel {
 /// An address as two words, low one first: a structure with it has no gaps.
 fn words(address: u64) -> [u32; 2] {
     [address as u32, (address >> 32) as u32]
-}
-
-impl Drop for Kernel {
-    fn drop(&mut self) {
-        if !self.gpu.0.hangs() {
-            // SAFETY: every run was waited for.
-            unsafe { self.gpu.0.raw.destroy_pipeline(self.pipeline, None) };
-        }
-    }
 }

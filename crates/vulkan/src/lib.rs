@@ -5,23 +5,37 @@
 //!
 //! SPIR-V handed to this crate is trusted: it is that of `lumbre-shaders`, checked by `spirv-val` in its tests.
 
+mod accel;
 mod adapters;
 mod buffer;
+mod cache;
 mod commands;
+mod compute;
+mod descriptors;
 mod error;
 mod features;
 mod gpu;
+mod image;
 mod instance;
 mod kernel;
 mod memory;
+mod path;
 mod pipeline;
+mod post;
+mod ray_pipeline;
+mod replay;
+mod sbt;
+mod scene;
 mod specialisation;
 #[cfg(test)]
 mod tests;
+mod timer;
 mod upload;
 
+pub use accel::AccelReport;
 pub use adapters::{Adapter, Kind, Wanted, adapters};
 pub use buffer::{Buffer, Purpose};
+pub use cache::PipelineCache;
 pub use commands::{Commands, Pending};
 pub use error::VulkanError;
 pub use features::Features;
@@ -29,5 +43,11 @@ pub use gpu::{Gpu, Options};
 pub use instance::Validation;
 pub use kernel::Kernel;
 pub use memory::MemoryUse;
+pub use path::{Frames, PassTime, VulkanBackend};
+pub use post::Post;
+pub use ray_pipeline::{HitShaders, RayPipeline, RayShaders};
+pub use replay::Replay;
+pub use scene::{SceneOnGpu, SceneOptions};
 pub use specialisation::Specialisation;
+pub use timer::Timer;
 pub use upload::Upload;

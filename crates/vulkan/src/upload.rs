@@ -6,7 +6,7 @@ use crate::error::VulkanError;
 use crate::gpu::Gpu;
 
 /// Bytes of each of the two buffers.
-const CHUNK: u64 = 32 << 20;
+pub(crate) const CHUNK: u64 = 32 << 20;
 
 /// A way for much data: one chunk is copied by the device while the host writes the next.
 pub struct Upload {
@@ -71,6 +71,12 @@ impl Upload {
     /// If the device is lost.
     pub fn finish(mut self) -> Result<(), VulkanError> {
         self.chunks.iter_mut().flatten().filter_map(|c| c.1.take()).try_for_each(Pending::wait)
+    }
+}
+
+impl Upload {
+    pub(crate) fn gpu(&self) -> &Gpu {
+        &self.gpu
     }
 }
 

@@ -1,5 +1,6 @@
 //! What can be said on the command line: one file per group of flags, each with its help.
 
+pub(crate) mod bench;
 pub(crate) mod camera;
 pub(crate) mod compare;
 pub(crate) mod device;
@@ -57,6 +58,9 @@ pub(crate) enum Command {
     /// List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks.
     #[command(after_help = devices::EXAMPLES)]
     Devices(devices::DevicesArgs),
+    /// Measure frames per second, rays per second and their like, as tables.
+    #[command(after_help = bench::EXAMPLES)]
+    Bench(Box<bench::BenchArgs>),
     /// Print what makes a shell complete the flags of this program.
     #[command(after_help = generate::COMPLETIONS_EXAMPLES)]
     Completions(generate::CompletionsArgs),

@@ -3,14 +3,13 @@
 use crate::console;
 use crate::device;
 use crate::exit::Failure;
-use crate::flags::light::LightArgs;
 use crate::flags::render::RenderArgs;
-use crate::flags::values::{MAX_SIDE, Size, Sky};
+use crate::flags::values::{MAX_SIDE, Size};
+use crate::lit::{self, Lit};
 use lumbre::core::Camera;
 use lumbre::core::camera::Projection;
 use lumbre::core::settings::View;
-use lumbre::io::Limits;
-use lumbre::scene::{Background, CompiledScene, Environment, Scene, Sun};
+use lumbre::scene::CompiledScene;
 use lumbre::{Aperture, Backend, CameraOptions, Focus};
 use std::time::Instant;
 
@@ -27,22 +26,17 @@ pub(super) struct Opened {
 /// Loads, lights and compiles the scene, and finds the camera.
 pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened, Failure> {
     let start = Instant::now();
-    let load = args.loading.options();
-    let mut loaded = lumbre::load_scene(&args.scene, &load)?;
-    loaded.warnings.iter().for_each(console::warning);
+    let Lit { scene, sky_added } = lit::load(&args.scene, &args.loading, &args.light)?;
     // Before the costly part: is the camera there?
-    let aspect = lumbre::authored_aspect(&loaded.scene, &options.choice).map_err(Failure::usage)?;
-    set_environment(&args.light, &load.limits, &mut loaded.scene.environment)?;
-    let sky_added = mind_the_light(&args.light, &mut loaded.scene);
-    let compiled = lumbre::compile(&loaded.scene)?;
+    let aspect = lumbre::authored_aspect(&scene, &options.choice).map_err(Failure::usage)?;
+    let compiled = lumbre::compile(&scene)?;
     compiled.notes.iter().for_each(console::warning);
     let size = match args.output.size {
         Some(Size(size)) => size,
         None => default_size(aspect),
     };
     let shape = size[0] as f32 / size[1] as f32;
-    let found =
-        lumbre::find_camera(&loaded.scene, &compiled.scene, options, shape).map_err(Failure::usage)?;
+    let found = lumbre::find_camera(&scene, &compiled.scene, options, shape).map_err(Failure::usage)?;
     if found.framed {
         console::note("camera: the scene has none; the whole of it is put in view");
     }
@@ -78,28 +72,6 @@ pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, view: &mut View) -
 /// Distance that stands for infinity, metres: a lens of a metre blurs less than a pixel of what is beyond.
 const FAR: f32 = 1e5;
 
-/// Gives a scene without any light a gradient sky, unless the flags say what light there is; says what may surprise. Returns
-/// whether the sky was added.
-fn mind_the_light(args: &LightArgs, scene: &mut Scene) -> bool {
-    let kinds = lumbre::light_kinds(scene);
-    let asked = args.sky.is_some() || args.env.is_some() || args.sun.is_some();
-    if kinds.any() {
-        if kinds.only_emissive() && !asked {
-            console::note("light: emissive surfaces only; --sky gradient adds a sky");
-        }
-        return false;
-    }
-    if !asked {
-        scene.environment.background = Background::Gradient;
-        console::note("light: nothing in the scene gives any; gradient sky added (--sky off: none)");
-    } else if kinds.unlit {
-        console::warning("nothing gives light: only unlit surfaces will be seen");
-    } else {
-        console::warning("nothing gives light: the picture will be black");
-    }
-    !asked
-}
-
 /// Rows of a picture for which no size was asked.
 const ROWS: u32 = 720;
 
@@ -110,33 +82,6 @@ fn default_size(aspect: Option<f32>) -> [u32; 2] {
     let width = ((ROWS as f32 * aspect).round() as u32).clamp(1, MAX_SIDE);
     console::note(format_args!("size: {width}x{ROWS}, the shape that the camera was framed for"));
     [width, ROWS]
-}
-
-/// Puts the light of the flags in the place of the scene's own.
-fn set_environment(args: &LightArgs, limits: &Limits, environment: &mut Environment) -> Result<(), Failure> {
-    if let Some(sky) = args.sky {
-        environment.background = match sky {
-            Sky::Color(c) => Background::Constant(c),
-            Sky::Gradient => Background::Gradient,
-            Sky::Off => Background::Black,
-        };
-        environment.strength = 1.0;
-    }
-    if let Some(path) = &args.env {
-        let loaded = lumbre::io::read_environment(path, limits)?;
-        for warning in &loaded.warnings {
-            console::warning(format_args!("{}: {warning}", path.display()));
-        }
-        environment.background = Background::Map(loaded.map);
-        environment.rotation = args.env_rotate.to_radians();
-        environment.strength = args.env_strength;
-        // A picture of the sky has its own sun.
-        environment.sun = None;
-    }
-    if let Some(flag) = args.sun {
-        environment.sun = Some(Sun::daylight(flag.elevation_deg, flag.azimuth_deg, flag.strength));
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -61,7 +61,7 @@ fn manual_pages_are_current() {
 
 #[test]
 fn every_command_has_examples_and_says_its_exit_codes() {
-    for command in ["render", "info", "compare", "merge", "devices", "completions", "man"] {
+    for command in ["render", "info", "compare", "merge", "devices", "bench", "completions", "man"] {
         let help = lumbre(&format!("{command} --help")).exits(0).stdout;
         assert!(help.contains("Examples:") && help.contains("Exit codes:"), "{command}");
     }

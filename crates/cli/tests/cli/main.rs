@@ -1,6 +1,7 @@
 //! The command line as its users meet it: the built program is run, and its files, words and exit codes are looked at. Each
 //! flag has a test of what it does or of what it refuses.
 
+mod bench;
 mod camera;
 mod common;
 mod compare;

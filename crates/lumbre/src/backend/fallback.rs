@@ -93,17 +93,20 @@ mod tests {
     use std::sync::Mutex;
     use std::sync::atomic::{AtomicU32, Ordering};
 
+    /// Ranges that were asked for.
+    type Asked = std::sync::Arc<Mutex<Vec<Range<u32>>>>;
+
     /// The CPU under another name, which fails after some passes and remembers what it was asked for.
     struct Flaky {
         inner: Box<dyn Backend>,
         left: AtomicU32,
-        asked: std::sync::Arc<Mutex<Vec<Range<u32>>>>,
+        asked: Asked,
     }
 
-    fn flaky(passes: u32) -> (Box<Flaky>, std::sync::Arc<Mutex<Vec<Range<u32>>>>) {
-        let asked = std::sync::Arc::default();
+    fn flaky(passes: u32) -> (Box<Flaky>, Asked) {
+        let asked = Asked::default();
         let inner = prepare(scene(), Device::Cpu).unwrap();
-        let flaky = Flaky { inner, left: AtomicU32::new(passes), asked: std::sync::Arc::clone(&asked) };
+        let flaky = Flaky { inner, left: AtomicU32::new(passes), asked: Asked::clone(&asked) };
         (Box::new(flaky), asked)
     }
 

@@ -31,6 +31,8 @@ pub struct Frames {
     pub seconds: Vec<f64>,
     /// What was done in all.
     pub progress: Progress,
+    /// Rays that go on a path, that of the camera too, but no shadow rays; `None` where they are not counted apart.
+    pub path_rays: Option<u64>,
     /// The device's passes, over all frames; empty where it has no clock.
     pub passes: Vec<PassTime>,
 }

@@ -1,7 +1,7 @@
 //! From what is asked for to a device that is there, before there is a scene, and from there to a backend.
 
 use super::vulkan::{self, Gpu};
-use super::{Backend, Device, DeviceError, Fallback, cpu_name, devices, prepare_cpu};
+use super::{Backend, Device, DeviceError, Fallback, GpuChoice, cpu_name, devices, prepare_cpu};
 use lumbre_cpu::bvh::SimdLevel;
 use lumbre_scene::CompiledScene;
 
@@ -91,6 +91,14 @@ impl OpenDevice {
         matches!(self.kind, Kind::Gpu(_))
     }
 
+    /// The same, and no other device goes on where it fails.
+    pub fn alone(self) -> Self {
+        match self.asked {
+            Device::Auto if self.is_gpu() => OpenDevice { asked: Device::Gpu(GpuChoice::Best), ..self },
+            _ => self,
+        }
+    }
+
     /// Brings a scene to it. A GPU that [`Device::Auto`] chose is backed by the CPU ([`Fallback`]), for which the scene is kept.
     ///
     /// # Errors
@@ -123,7 +131,6 @@ fn on_cpu(scene: CompiledScene, failed: Option<String>) -> Result<Prepared, Devi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::GpuChoice;
     use lumbre_scene::{Scene, compile};
 
     fn empty() -> CompiledScene {

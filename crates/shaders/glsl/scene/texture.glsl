@@ -1,5 +1,4 @@
-// Textures. Twin: scene/src/compiled/texture.rs for alpha, which decides whether a ray finds a surface; for all else, where IMAGES is
-// defined, images that the device filters take its place.
+// Textures. Twin: scene/src/compiled/texture.rs. All that is not alpha is read from images, where IMAGES is defined.
 #extension GL_EXT_nonuniform_qualifier : require
 #ifndef SCENE_TEXTURE_GLSL
 #define SCENE_TEXTURE_GLSL
@@ -41,39 +40,53 @@ vec2 texture_uv(TextureUse use, vec2 uv0, vec2 uv1) {
     return vec2(dot(use.transform[0], uv), dot(use.transform[1], uv));
 }
 
-// Alpha of a texel.
-float texture_alpha_texel(TextureTable t, int x, int y) {
-    int at = texture_wrapped(y, int(t.height), t.wrap_t) * int(t.width) + texture_wrapped(x, int(t.width), t.wrap_s);
-    return float(t.texels.at[at] >> 24) * (1.0 / 255.0);
+// The four texels around a place, and how far it is from the first two of them.
+struct Footprint {
+    ivec2 low;
+    ivec2 high;
+    vec2 weight;
+};
+
+// Where a texture is read: bilinear between texel centres, v down.
+Footprint texture_footprint(TextureTable t, vec2 uv) {
+    ivec2 size = ivec2(t.width, t.height);
+    vec2 at = vec2(texture_reduced(uv.x, t.wrap_s), texture_reduced(uv.y, t.wrap_t)) * vec2(size);
+    at -= t.nearest == 1u ? 0.0 : 0.5;
+    ivec2 low = ivec2(floor(at));
+    Footprint f;
+    f.weight = t.nearest == 1u ? vec2(0.0) : at - vec2(low);
+    f.low = ivec2(texture_wrapped(low.x, size.x, t.wrap_s), texture_wrapped(low.y, size.y, t.wrap_t));
+    f.high = ivec2(texture_wrapped(low.x + 1, size.x, t.wrap_s), texture_wrapped(low.y + 1, size.y, t.wrap_t));
+    return f;
 }
 
-// Alpha of a texture, bilinear between texel centres; v down. Filtered by hand, so that every device finds the same surfaces.
+// Alpha of a texel.
+float texture_alpha_texel(TextureTable t, ivec2 at) {
+    return float(t.texels.at[at.y * int(t.width) + at.x] >> 24) * (1.0 / 255.0);
+}
+
+// Alpha of a texture, from texels in memory: it decides whether a ray finds a surface, so that every device must find the same.
 float texture_alpha(TextureUse use, vec2 uv0, vec2 uv1) {
     TextureTable t = push.scene.textures.at[use.texture];
-    vec2 uv = texture_uv(use, uv0, uv1);
-    float x = texture_reduced(uv.x, t.wrap_s) * float(t.width);
-    float y = texture_reduced(uv.y, t.wrap_t) * float(t.height);
-    if (t.nearest == 1u) {
-        return texture_alpha_texel(t, int(floor(x)), int(floor(y)));
-    }
-    x -= 0.5;
-    y -= 0.5;
-    int i = int(floor(x));
-    int j = int(floor(y));
-    float fx = x - float(i);
-    float fy = y - float(j);
-    float top = lerp(texture_alpha_texel(t, i, j), texture_alpha_texel(t, i + 1, j), fx);
-    float bottom = lerp(texture_alpha_texel(t, i, j + 1), texture_alpha_texel(t, i + 1, j + 1), fx);
-    return lerp(top, bottom, fy);
+    Footprint f = texture_footprint(t, texture_uv(use, uv0, uv1));
+    float top = lerp(texture_alpha_texel(t, f.low), texture_alpha_texel(t, ivec2(f.high.x, f.low.y)), f.weight.x);
+    float bottom = lerp(texture_alpha_texel(t, ivec2(f.low.x, f.high.y)), texture_alpha_texel(t, f.high), f.weight.x);
+    return lerp(top, bottom, f.weight.y);
 }
 
 #ifdef IMAGES
-// The value of a texture, filtered by the device.
+// A texel, decoded by the device.
+vec4 texture_texel(uint id, ivec2 at, bool srgb) {
+    return srgb ? texelFetch(textures_srgb[nonuniformEXT(id)], at, 0) : texelFetch(textures_linear[nonuniformEXT(id)], at, 0);
+}
+
+// The value of a texture. Texels come from an image, which lies in memory as rays want it; the weights are ours, since devices
+// filter with 8 bits of them, which would tell the devices' pictures apart.
 vec4 texture_value(TextureUse use, vec2 uv0, vec2 uv1, bool srgb) {
-    vec2 uv = texture_uv(use, uv0, uv1);
-    // Rays have no footprint: the finest level.
-    return srgb ? textureLod(textures_srgb[nonuniformEXT(use.texture)], uv, 0.0)
-                : textureLod(textures_linear[nonuniformEXT(use.texture)], uv, 0.0);
+    Footprint f = texture_footprint(push.scene.textures.at[use.texture], texture_uv(use, uv0, uv1));
+    vec4 top = mix(texture_texel(use.texture, f.low, srgb), texture_texel(use.texture, ivec2(f.high.x, f.low.y), srgb), f.weight.x);
+    vec4 bottom = mix(texture_texel(use.texture, ivec2(f.low.x, f.high.y), srgb), texture_texel(use.texture, f.high, srgb), f.weight.x);
+    return mix(top, bottom, f.weight.y);
 }
 
 // The value of a texture that a record in memory names; white where there is none. A macro, so that the record is read only where

@@ -70,11 +70,8 @@ fn number(n: &mut Numbers, kind: u32) -> f32 {
         // Halfway between quanta.
         2 => (n.below(4096) as f32 - 2047.5) * QUANTUM,
         3 => n.one_of(&corners),
-        // Any bits that are a number, and rarely any bits at all.
-        _ => {
-            let bits = f32::from_bits(n.word());
-            if bits.is_finite() || n.below(8) == 0 { bits } else { 1.0 }
-        }
+        // Any bits: one in 256 is no number.
+        _ => f32::from_bits(n.word()),
     }
 }
 
@@ -176,8 +173,9 @@ fn inputs_reach_the_ends() {
     let all: Vec<(Input, Output)> = inputs().into_iter().map(|i| (i, twin(&i))).collect();
     let share =
         |f: fn(&(Input, Output)) -> bool| all.iter().filter(|io| f(io)).count() as f64 / all.len() as f64;
-    assert!((0.3..0.8).contains(&share(|(i, o)| o.sums.saturated() > i.start.saturated())));
-    assert!((0.03..0.5).contains(&share(|(_, o)| o.count > 0)));
+    let over = share(|(i, o)| o.sums.saturated() > i.start.saturated());
+    let bad = share(|(_, o)| o.count > 0);
+    assert!((0.3..0.8).contains(&over) && (0.03..0.5).contains(&bad), "{over} {bad}");
 }
 
 /// A quantum more in one band, a sample left out, or its number taken for the next are found.

@@ -4,13 +4,21 @@
 //! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
 
 mod bsdf;
+mod camera;
 mod columns;
+mod environment;
 mod film;
 mod fresnel;
 mod hash;
+mod lights;
 mod math;
+mod medium;
 mod microfacet;
+mod post;
 mod sampler;
+mod tone;
+mod warp;
+mod wavelength;
 
 use bytemuck::Pod;
 use lumbre_vulkan::Specialisation;

@@ -1,6 +1,6 @@
 //! A scene on a GPU, rendered into films. Twin of the loop over tiles: `cpu/src/backend.rs`.
 
-use super::film::{CounterReadback, FilmOnGpu, Rays};
+use super::film::{CounterReadback, FilmOnGpu};
 use super::media::Solids;
 use super::slices::{Pace, Slice, Slices};
 use super::variant::SceneConstants;

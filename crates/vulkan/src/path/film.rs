@@ -105,11 +105,15 @@ impl FilmOnGpu {
         match bytemuck::try_cast_slice(pixels) {
             Ok(pixels) => film.merge_sums(part, pixels),
             // Memory of a driver that aligns it to less than the sums ask for.
-            Err(_) => film.merge_sums(part, &bytemuck::pod_collect_to_vec(pixels)),
+            Err(_) => film.merge_sums(part, &collected::<PixelSums>(pixels)),
         }
-        let words: Vec<u32> = bytemuck::pod_collect_to_vec(&rest[..NON_FINITE_BYTES]);
+        let words = collected::<u32>(&rest[..NON_FINITE_BYTES]);
         let (count, some) = non_finite(&words);
         film.merge_non_finite(count.into(), some);
         Ok(())
     }
+}
+
+fn collected<T: bytemuck::Pod>(bytes: &[u8]) -> Vec<T> {
+    bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
 }

@@ -83,7 +83,8 @@ impl Slices {
         // A part of a row, or whole rows.
         let [x, y] = self.at;
         let rows = (pace.room / u64::from(width)).min(u64::from(height - y)) as u32;
-        let size = if x > 0 || rows == 0 { [pace.room.min(u64::from(width - x)) as u32, 1] } else { [width, rows] };
+        let size =
+            if x > 0 || rows == 0 { [pace.room.min(u64::from(width - x)) as u32, 1] } else { [width, rows] };
         self.at = if x + size[0] < width { [x + size[0], y] } else { [0, y + size[1]] };
         if self.at[1] == height {
             self.at = [0, 0];

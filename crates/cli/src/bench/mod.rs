@@ -1,0 +1,67 @@
+//! `lumbre bench`: tables of what a device does. One file a table; [`measure`] takes the figures, [`sweep`] varies one thing after
+//! another, [`table`] prints.
+
+mod depth;
+mod equal_time;
+mod hemisphere;
+mod measure;
+mod path;
+mod place;
+mod samples;
+mod size;
+mod still;
+mod sweep;
+mod table;
+
+use crate::exit::{Code, Failure};
+use crate::flags::bench::{BenchArgs, Table as Which};
+use crate::{console, device};
+use lumbre::core::Film;
+use lumbre::core::settings::View;
+use lumbre::{Backend, Outcome, Targets};
+use place::Place;
+
+/// Runs the command.
+pub(crate) fn run(args: &BenchArgs) -> Result<Code, Failure> {
+    // An unavailable device is said before a scene is opened.
+    drop(device::open(&args.device)?);
+    let table = device::pool(&args.device)?.install(|| match args.table {
+        Which::Path => path::table(args),
+        Which::Samples => samples::table(args),
+        Which::Depth => depth::table(args),
+        Which::Size => size::table(args),
+        Which::Hemisphere => hemisphere::table(args),
+        Which::Still => still::table(args),
+        Which::EqualTime => equal_time::table(args),
+    })?;
+    console::result(match (args.json, args.markdown) {
+        (true, _) => table.json(),
+        (_, true) => table.markdown(),
+        _ => table.plain(),
+    })?;
+    Ok(Code::Done)
+}
+
+/// How the paths of a table are made, for those who read it.
+fn settings(args: &BenchArgs, device: &str) -> Vec<(&'static str, String)> {
+    let own = |name: &str| args.sampling.described().into_iter().find(|(n, _)| *n == name).map(|(_, v)| v);
+    let mut all = vec![("device", device.to_owned())];
+    let roulette = own("roulette").unwrap_or_default();
+    let roulette = if roulette == "off" { roulette } else { format!("from event {roulette}") };
+    all.push(("roulette", roulette));
+    for (name, key) in [("sampler", "sampler"), ("filter", "filter"), ("light sampling", "lightSampling")] {
+        all.extend(own(key).map(|value| (name, value)));
+    }
+    all
+}
+
+/// Brings a place to the device, and to no other if that fails: figures are of one device.
+fn bring(args: &BenchArgs, place: &Place) -> Result<Box<dyn Backend>, Failure> {
+    device::prepare(device::open(&args.device)?.alone(), place.compiled.clone())
+}
+
+/// A whole picture until the targets are met, its film read back after each pass.
+fn render(backend: &dyn Backend, view: &View, size: [u32; 2], targets: Targets) -> Result<Outcome, Failure> {
+    let mut film = Film::new(size[0], size[1]);
+    lumbre::render(backend, view, targets, &mut film, &()).map_err(|failed| failed.error.into())
+}

@@ -1,0 +1,5 @@
+//! The GPU against the CPU: hits, then whole paths.
+
+mod common;
+mod hits;
+mod paired;

@@ -1,0 +1,116 @@
+//! Acceleration structures of a scene: which there are ([`plan`]), bottom-level ones ([`blas`]) and the top-level one ([`tlas`]).
+
+mod blas;
+pub(crate) mod plan;
+mod structure;
+mod tlas;
+
+pub(crate) use structure::Structure;
+
+use crate::buffer::Buffer;
+use crate::error::VulkanError;
+use crate::gpu::Gpu;
+use crate::scene::geometry::Geometry;
+use crate::upload::Upload;
+use lumbre_scene::CompiledScene;
+use plan::{Part, Plan};
+
+/// What there is of acceleration structures and what making them took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AccelReport {
+    /// Bottom-level structures.
+    pub structures: usize,
+    /// Triangles in them.
+    pub triangles: u64,
+    /// Instances in the top level.
+    pub instances: usize,
+    /// Bytes of the bottom level as built.
+    pub bytes_built: u64,
+    /// Bytes of it after compaction.
+    pub bytes: u64,
+    /// Bytes of the top level.
+    pub top_bytes: u64,
+    /// Time that the device took to build the bottom level, milliseconds.
+    pub build_ms: f64,
+    /// Time that it took to compact it.
+    pub compact_ms: f64,
+    /// Time that it took to build the top level.
+    pub top_build_ms: f64,
+}
+
+/// The acceleration structures of a scene.
+pub(crate) struct Accel {
+    pub(crate) top: Structure,
+    /// Held for `top`.
+    _bottom: blas::Bottom,
+    /// Indices and numbers of the triangles of parts; the latter are read when something is hit.
+    _parts: PartBuffers,
+    /// `GeometryRecord`s.
+    pub(crate) records: Buffer,
+    pub(crate) report: AccelReport,
+}
+
+/// Indices of the triangles of parts that are not the whole of their mesh, and their numbers in the mesh.
+pub(crate) struct PartBuffers {
+    buffers: Vec<Buffer>,
+    /// For each part: addresses of its indices and its numbers; zero where the part is the whole.
+    pub(crate) addresses: Vec<[u64; 2]>,
+}
+
+impl PartBuffers {
+    fn new(
+        upload: &mut Upload,
+        scene: &CompiledScene,
+        geometry: &Geometry,
+        parts: &[Part],
+    ) -> Result<Self, VulkanError> {
+        let mut all = PartBuffers { buffers: Vec::new(), addresses: Vec::new() };
+        for part in parts {
+            let mut addresses = [0; 2];
+            if let Some(ids) = &part.triangles {
+                let mesh = &scene.meshes[part.mesh as usize];
+                let rebase = geometry.first_vertex_of_chunk(part.mesh);
+                let index =
+                    |&t: &u32| scene.triangles[(mesh.first_triangle + t) as usize].map(|v| v - rebase);
+                let indices: Vec<[u32; 3]> = ids.iter().map(index).collect();
+                let contents: [&[u8]; 2] = [bytemuck::cast_slice(&indices), bytemuck::cast_slice(ids)];
+                for (address, content) in addresses.iter_mut().zip(contents) {
+                    let buffer = Buffer::with_content(upload, "triangles of a part of a mesh", content)?;
+                    *address = buffer.address();
+                    all.buffers.push(buffer);
+                }
+            }
+            all.addresses.push(addresses);
+        }
+        Ok(all)
+    }
+}
+
+impl Accel {
+    /// Builds all structures of a scene whose geometry is on the device.
+    ///
+    /// # Errors
+    /// If memory is out, the scene has too many geometries, or the device is lost.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        scene: &CompiledScene,
+        geometry: &Geometry,
+        merge: bool,
+    ) -> Result<Self, VulkanError> {
+        let plan = Plan::new(scene, merge);
+        let mut upload = Upload::new(gpu);
+        let parts = PartBuffers::new(&mut upload, scene, geometry, &plan.parts)?;
+        let records: Vec<_> = plan.records(&parts.addresses);
+        let records = Buffer::with_content(&mut upload, "geometry records", bytemuck::cast_slice(&records))?;
+        let (bottom, bottom_report) = blas::build(&mut upload, scene, geometry, &plan, &parts)?;
+        let (top, top_ms) = tlas::build(&mut upload, scene, &plan, &bottom)?;
+        upload.finish()?;
+        let report = AccelReport {
+            instances: plan.instances.len(),
+            top_bytes: top.size(),
+            top_build_ms: top_ms,
+            ..bottom_report
+        };
+        Ok(Accel { top, _bottom: bottom, _parts: parts, records, report })
+    }
+}

@@ -1,0 +1,136 @@
+//! The one set of descriptors: the top-level structure and two arrays of textures (`lumbre_shaders::layout::binding`).
+
+use crate::error::{Called, VulkanError};
+use crate::gpu::Gpu;
+use crate::scene::SceneOnGpu;
+use ash::vk;
+use lumbre_shaders::layout::binding;
+
+/// Layout and set for a scene, which must live as long.
+pub(crate) struct Descriptors {
+    gpu: Gpu,
+    pub(crate) layout: vk::DescriptorSetLayout,
+    pool: vk::DescriptorPool,
+    pub(crate) set: vk::DescriptorSet,
+}
+
+/// Stages that read descriptors and push constants.
+pub(crate) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::RAYGEN_KHR.as_raw()
+        | vk::ShaderStageFlags::CLOSEST_HIT_KHR.as_raw()
+        | vk::ShaderStageFlags::ANY_HIT_KHR.as_raw()
+        | vk::ShaderStageFlags::MISS_KHR.as_raw(),
+);
+
+impl Descriptors {
+    pub(crate) fn new(scene: &SceneOnGpu) -> Result<Self, VulkanError> {
+        let gpu = scene.gpu().clone();
+        // An array has one element at least, bound or not.
+        let textures = scene.textures.sampled.len().max(1) as u32;
+        let mut descriptors = Descriptors {
+            layout: vk::DescriptorSetLayout::null(),
+            pool: vk::DescriptorPool::null(),
+            set: vk::DescriptorSet::null(),
+            gpu,
+        };
+        descriptors.make(textures)?;
+        descriptors.write(scene);
+        Ok(descriptors)
+    }
+
+    fn make(&mut self, textures: u32) -> Result<(), VulkanError> {
+        let device = &self.gpu.0.raw;
+        let binding = |binding, kind, count| {
+            vk::DescriptorSetLayoutBinding::default()
+                .binding(binding)
+                .descriptor_type(kind)
+                .descriptor_count(count)
+                .stage_flags(STAGES)
+        };
+        let image = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+        let structure = vk::DescriptorType::ACCELERATION_STRUCTURE_KHR;
+        let bindings = [
+            binding(binding::TLAS, structure, 1),
+            binding(binding::TEXTURES_SRGB, image, textures),
+            binding(binding::TEXTURES_LINEAR, image, textures),
+        ];
+        // With update after bind a device offers far more textures.
+        let (array, layout, pool) = if self.gpu.features().update_after_bind {
+            (
+                vk::DescriptorBindingFlags::PARTIALLY_BOUND | vk::DescriptorBindingFlags::UPDATE_AFTER_BIND,
+                vk::DescriptorSetLayoutCreateFlags::UPDATE_AFTER_BIND_POOL,
+                vk::DescriptorPoolCreateFlags::UPDATE_AFTER_BIND,
+            )
+        } else {
+            (
+                vk::DescriptorBindingFlags::PARTIALLY_BOUND,
+                vk::DescriptorSetLayoutCreateFlags::empty(),
+                vk::DescriptorPoolCreateFlags::empty(),
+            )
+        };
+        let flags = [vk::DescriptorBindingFlags::empty(), array, array];
+        let mut flags = vk::DescriptorSetLayoutBindingFlagsCreateInfo::default().binding_flags(&flags);
+        let create = vk::DescriptorSetLayoutCreateInfo::default()
+            .flags(layout)
+            .bindings(&bindings)
+            .push_next(&mut flags);
+        let sizes = [
+            vk::DescriptorPoolSize { ty: structure, descriptor_count: 1 },
+            vk::DescriptorPoolSize { ty: image, descriptor_count: 2 * textures },
+        ];
+        let create_pool = vk::DescriptorPoolCreateInfo::default().flags(pool).max_sets(1).pool_sizes(&sizes);
+        // SAFETY: a live device; what is made is destroyed by `drop`.
+        unsafe {
+            self.layout =
+                device.create_descriptor_set_layout(&create, None).called("vkCreateDescriptorSetLayout")?;
+            self.pool = device.create_descriptor_pool(&create_pool, None).called("vkCreateDescriptorPool")?;
+            let layouts = [self.layout];
+            let allocate =
+                vk::DescriptorSetAllocateInfo::default().descriptor_pool(self.pool).set_layouts(&layouts);
+            self.set = device.allocate_descriptor_sets(&allocate).called("vkAllocateDescriptorSets")?[0];
+        }
+        Ok(())
+    }
+
+    fn write(&self, scene: &SceneOnGpu) {
+        let structures = [scene.accel.top.raw];
+        let mut top =
+            vk::WriteDescriptorSetAccelerationStructureKHR::default().acceleration_structures(&structures);
+        let image = |view, sampler| {
+            vk::DescriptorImageInfo::default()
+                .image_view(view)
+                .sampler(sampler)
+                .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
+        };
+        let sampled = &scene.textures.sampled;
+        let srgb: Vec<_> = sampled.iter().map(|s| image(s.srgb, s.sampler)).collect();
+        let linear: Vec<_> = sampled.iter().map(|s| image(s.linear, s.sampler)).collect();
+        let write = |binding| vk::WriteDescriptorSet::default().dst_set(self.set).dst_binding(binding);
+        let images = |at, infos| {
+            write(at).descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER).image_info(infos)
+        };
+        let structure = write(binding::TLAS)
+            .descriptor_type(vk::DescriptorType::ACCELERATION_STRUCTURE_KHR)
+            .descriptor_count(1)
+            .push_next(&mut top);
+        let mut writes = vec![structure];
+        if !sampled.is_empty() {
+            writes.extend([images(binding::TEXTURES_SRGB, &srgb), images(binding::TEXTURES_LINEAR, &linear)]);
+        }
+        // SAFETY: the set is new; what is written lives as long as the scene.
+        unsafe { self.gpu.0.raw.update_descriptor_sets(&writes, &[]) };
+    }
+}
+
+impl Drop for Descriptors {
+    fn drop(&mut self) {
+        if self.gpu.0.hangs() {
+            return;
+        }
+        // SAFETY: every submission that uses it was waited for; null handles are ignored.
+        unsafe {
+            self.gpu.0.raw.destroy_descriptor_pool(self.pool, None);
+            self.gpu.0.raw.destroy_descriptor_set_layout(self.layout, None);
+        }
+    }
+}

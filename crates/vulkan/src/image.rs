@@ -1,0 +1,186 @@
+//! Images that shaders sample, read as sRGB or as linear values.
+
+use crate::buffer::Buffer;
+use crate::commands::Commands;
+use crate::error::{Called, VulkanError};
+use crate::gpu::Gpu;
+use crate::upload::{CHUNK, Upload};
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::Allocation;
+
+/// An RGBA8 image of one level, with a view for each way to read its colours.
+pub(crate) struct Image {
+    gpu: Gpu,
+    raw: vk::Image,
+    allocation: Option<Allocation>,
+    pub(crate) srgb: vk::ImageView,
+    pub(crate) linear: vk::ImageView,
+}
+
+const FORMATS: [vk::Format; 2] = [vk::Format::R8G8B8A8_SRGB, vk::Format::R8G8B8A8_UNORM];
+const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
+    aspect_mask: vk::ImageAspectFlags::COLOR,
+    base_mip_level: 0,
+    level_count: 1,
+    base_array_layer: 0,
+    layer_count: 1,
+};
+
+impl Image {
+    /// An image with these texels, row by row from the top.
+    pub(crate) fn new(
+        upload: &mut Upload,
+        name: &str,
+        [width, height]: [u32; 2],
+        texels: &[u32],
+    ) -> Result<Self, VulkanError> {
+        let gpu = upload.gpu().clone();
+        let mut image = Self::empty(&gpu, name, [width, height])?;
+        let device = &gpu.0.raw;
+        for (i, view) in [&mut image.srgb, &mut image.linear].into_iter().enumerate() {
+            let create = vk::ImageViewCreateInfo::default()
+                .image(image.raw)
+                .view_type(vk::ImageViewType::TYPE_2D)
+                .format(FORMATS[i])
+                .subresource_range(COLOR);
+            // SAFETY: a live image that allows both formats.
+            *view = unsafe { device.create_image_view(&create, None) }.called("vkCreateImageView")?;
+        }
+        // A row is far below a chunk: sides are bounded.
+        let rows = (CHUNK / (4 * u64::from(width))).max(1) as usize;
+        for (i, some) in texels.chunks(rows * width as usize).enumerate() {
+            let first = (i * rows) as u32;
+            let count = (some.len() / width as usize) as u32;
+            upload.through(bytemuck::cast_slice(some), |from| {
+                gpu.submit("an image", |c| {
+                    if first == 0 {
+                        image.transition(
+                            c,
+                            vk::ImageLayout::UNDEFINED,
+                            vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                        );
+                    }
+                    image.copy(c, from, [width, count], first);
+                    if first + count == height {
+                        let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+                        image.transition(c, vk::ImageLayout::TRANSFER_DST_OPTIMAL, read);
+                    }
+                    Ok(())
+                })
+            })?;
+        }
+        Ok(image)
+    }
+
+    /// Without content and views.
+    fn empty(gpu: &Gpu, name: &str, [width, height]: [u32; 2]) -> Result<Self, VulkanError> {
+        let mut formats = vk::ImageFormatListCreateInfo::default().view_formats(&FORMATS);
+        let create = vk::ImageCreateInfo::default()
+            .flags(vk::ImageCreateFlags::MUTABLE_FORMAT)
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(FORMATS[0])
+            .extent(vk::Extent3D { width, height, depth: 1 })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST)
+            .push_next(&mut formats);
+        let device = &gpu.0.raw;
+        // SAFETY: a live device; what is made is destroyed by `drop`.
+        let raw = unsafe { device.create_image(&create, None) }.called("vkCreateImage")?;
+        let null = vk::ImageView::null();
+        let mut image = Image { gpu: gpu.clone(), raw, allocation: None, srgb: null, linear: null };
+        // SAFETY: the image is new; the memory is bound once and lives as long.
+        let requirements = unsafe { device.get_image_memory_requirements(raw) };
+        let allocation = gpu.0.memory.allocate(name, requirements, MemoryLocation::GpuOnly, false)?;
+        let (memory, offset) = unsafe { (allocation.memory(), allocation.offset()) };
+        image.allocation = Some(allocation);
+        unsafe { device.bind_image_memory(raw, memory, offset) }.called("vkBindImageMemory")?;
+        gpu.0.name(raw, name);
+        Ok(image)
+    }
+
+    fn transition(&self, c: &Commands<'_>, from: vk::ImageLayout, to: vk::ImageLayout) {
+        let all = vk::PipelineStageFlags::ALL_COMMANDS;
+        let barrier = [vk::ImageMemoryBarrier::default()
+            .image(self.raw)
+            .subresource_range(COLOR)
+            .old_layout(from)
+            .new_layout(to)
+            .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
+            .dst_access_mask(vk::AccessFlags::MEMORY_READ | vk::AccessFlags::MEMORY_WRITE)];
+        // SAFETY: the command buffer is being recorded.
+        unsafe {
+            let none = vk::DependencyFlags::empty();
+            self.gpu.0.raw.cmd_pipeline_barrier(c.raw, all, all, none, &[], &[], &barrier);
+        }
+    }
+
+    /// Copies rows from the start of a buffer.
+    fn copy(&self, c: &Commands<'_>, from: &Buffer, [width, rows]: [u32; 2], first: u32) {
+        let layers = vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            mip_level: 0,
+            base_array_layer: 0,
+            layer_count: 1,
+        };
+        let region = [vk::BufferImageCopy::default()
+            .image_subresource(layers)
+            .image_offset(vk::Offset3D { x: 0, y: first as i32, z: 0 })
+            .image_extent(vk::Extent3D { width, height: rows, depth: 1 })];
+        let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        // SAFETY: the command buffer is being recorded; the rows lie in buffer and image.
+        unsafe { self.gpu.0.raw.cmd_copy_buffer_to_image(c.raw, from.raw(), self.raw, layout, &region) };
+    }
+}
+
+impl Drop for Image {
+    fn drop(&mut self) {
+        if self.gpu.0.hangs() {
+            return;
+        }
+        let device = &self.gpu.0.raw;
+        // SAFETY: every submission that uses it was waited for; null views are ignored.
+        unsafe {
+            device.destroy_image_view(self.srgb, None);
+            device.destroy_image_view(self.linear, None);
+            device.destroy_image(self.raw, None);
+        }
+        if let Some(allocation) = self.allocation.take() {
+            self.gpu.0.memory.free(allocation);
+        }
+    }
+}
+
+/// A sampler, one for each way to wrap and filter.
+pub(crate) struct Sampler {
+    gpu: Gpu,
+    pub(crate) raw: vk::Sampler,
+}
+
+impl Sampler {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        wrap: [vk::SamplerAddressMode; 2],
+        filter: vk::Filter,
+    ) -> Result<Self, VulkanError> {
+        let create = vk::SamplerCreateInfo::default()
+            .mag_filter(filter)
+            .min_filter(filter)
+            .address_mode_u(wrap[0])
+            .address_mode_v(wrap[1]);
+        // SAFETY: a live device.
+        let raw = unsafe { gpu.0.raw.create_sampler(&create, None) }.called("vkCreateSampler")?;
+        Ok(Sampler { gpu: gpu.clone(), raw })
+    }
+}
+
+impl Drop for Sampler {
+    fn drop(&mut self) {
+        if !self.gpu.0.hangs() {
+            // SAFETY: every submission that uses it was waited for.
+            unsafe { self.gpu.0.raw.destroy_sampler(self.raw, None) };
+        }
+    }
+}

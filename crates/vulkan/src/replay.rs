@@ -1,0 +1,80 @@
+//! Rays from a list through a scene, with no shading at all: what they hit, and how fast the device is at best.
+
+use crate::buffer::{Buffer, Purpose};
+use crate::cache::PipelineCache;
+use crate::error::VulkanError;
+use crate::ray_pipeline::{HitShaders, RayPipeline, RayShaders};
+use crate::scene::SceneOnGpu;
+use crate::specialisation::Specialisation;
+use crate::timer::Timer;
+use crate::upload::Upload;
+use lumbre_shaders::replay::{self, Push, ReplayHit, ReplayRay};
+
+/// A pipeline that replays rays through a scene.
+pub struct Replay<'a> {
+    scene: &'a SceneOnGpu,
+    pipeline: RayPipeline,
+}
+
+impl<'a> Replay<'a> {
+    /// `all_pass`: surfaces that a ray has to ask let it pass; otherwise they stop it.
+    ///
+    /// # Errors
+    /// If the driver refuses the pipeline, or memory is out.
+    pub fn new(scene: &'a SceneOnGpu, all_pass: bool, cache: &PipelineCache) -> Result<Self, VulkanError> {
+        let closest = Some(replay::RCHIT);
+        let any = Some(replay::RAHIT);
+        let shaders = RayShaders {
+            raygen: replay::RGEN,
+            miss: [replay::PATH_RMISS, replay::SHADOW_RMISS],
+            // The rows are those of `HitClass`: opaque, transmissive, covered.
+            hits: [
+                [HitShaders { closest, any: None }, HitShaders::default()],
+                [HitShaders { closest, any: None }, HitShaders { closest: None, any }],
+                [HitShaders { closest, any }, HitShaders { closest: None, any }],
+            ],
+        };
+        let constants = Specialisation::new().bool(0, all_pass);
+        let pipeline = RayPipeline::new(scene, &shaders, &constants, size_of::<Push>() as u32, cache)?;
+        Ok(Replay { scene, pipeline })
+    }
+
+    /// What each ray hits, and how long the device took, milliseconds.
+    ///
+    /// # Errors
+    /// If memory is out, the rays are too many for one launch, or the device is lost.
+    pub fn run(&self, rays: &[ReplayRay]) -> Result<(Vec<ReplayHit>, f64), VulkanError> {
+        let gpu = self.scene.gpu();
+        let (needed, limit) = (rays.len() as u64, self.pipeline.max_invocations());
+        if needed > limit {
+            return Err(VulkanError::TooLarge { what: "rays".to_owned(), needed, limit });
+        }
+        if rays.is_empty() {
+            return Ok((Vec::new(), 0.0));
+        }
+        let mut upload = Upload::new(gpu);
+        let input = Buffer::with_content(&mut upload, "rays", bytemuck::cast_slice(rays))?;
+        upload.finish()?;
+        let size = (rays.len() * size_of::<ReplayHit>()) as u64;
+        let output = Buffer::new(gpu, "hits", size, Purpose::Data)?;
+        let result = Buffer::new(gpu, "hits on the host", size, Purpose::Readback)?;
+        let push = Push {
+            scene: self.scene.address(),
+            rays: input.address(),
+            hits: output.address(),
+            count: rays.len() as u32,
+            unused: 0,
+        };
+        let timer = Timer::new(gpu, 2)?;
+        gpu.run("replayed rays", |c| {
+            timer.reset(c);
+            timer.stamp(c, 0);
+            self.pipeline.trace(c, bytemuck::bytes_of(&push), [rays.len() as u32, 1, 1]);
+            timer.stamp(c, 1);
+            c.barrier();
+            c.copy((&output, 0), (&result, 0), size);
+            Ok(())
+        })?;
+        Ok((result.read_as(), timer.milliseconds()?[1]))
+    }
+}
