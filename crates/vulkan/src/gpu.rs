@@ -44,6 +44,7 @@ pub(crate) struct Shared {
     pub(crate) idle: Mutex<Vec<Slot>>,
     pub(crate) memory: ManuallyDrop<Memory>,
     pub(crate) patience: Duration,
+    work: Mutex<Work>,
     names: Option<ash::ext::debug_utils::Device>,
     state: State,
     pub(crate) instance: ManuallyDrop<Instance>,
@@ -76,6 +77,16 @@ struct State {
     loses_after: AtomicI64,
 }
 
+/// What is under way, and what is freed when nothing is.
+#[derive(Default)]
+struct Work {
+    submissions: usize,
+    discarded: Vec<Discarded>,
+}
+
+/// Frees a thing that the device may have been using when it was dropped.
+type Discarded = Box<dyn FnOnce(&Shared) + Send>;
+
 impl std::fmt::Debug for Gpu {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("Gpu").field(&self.0.adapter.name).finish()
@@ -106,6 +117,7 @@ impl Gpu {
             patience: options.patience * if adapter.kind == Kind::Cpu { 10 } else { 1 },
             names: instance.validates().then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw)),
             state: State::default(),
+            work: Mutex::default(),
             instance: ManuallyDrop::new(instance),
             adapter,
             raw,
@@ -181,9 +193,38 @@ impl Shared {
         result
     }
 
-    /// The device may still be using what it was given: that must be leaked.
-    pub(crate) fn hangs(&self) -> bool {
+    /// The device may still be using what it was given: that is leaked.
+    fn hangs(&self) -> bool {
         self.state.hangs.load(Ordering::Relaxed)
+    }
+
+    /// A submission is being recorded: what is dropped from now on may be part of it.
+    pub(crate) fn begin(&self) {
+        lock(&self.work).submissions += 1;
+    }
+
+    /// The device has finished with a submission, or never got it.
+    pub(crate) fn end(&self) {
+        let discarded = {
+            let mut work = lock(&self.work);
+            work.submissions -= 1;
+            if work.submissions > 0 { Vec::new() } else { std::mem::take(&mut work.discarded) }
+        };
+        discarded.into_iter().for_each(|free| free(self));
+    }
+
+    /// Frees something as soon as no submission is under way. So whatever is dropped, and whenever, the device is done with it.
+    pub(crate) fn discard(&self, free: impl FnOnce(&Shared) + Send + 'static) {
+        if self.hangs() {
+            return;
+        }
+        let mut work = lock(&self.work);
+        if work.submissions > 0 {
+            work.discarded.push(Box::new(free));
+        } else {
+            drop(work);
+            free(self);
+        }
     }
 
     /// Gives a thing a name in messages of the validation layer.

@@ -178,9 +178,8 @@ impl RayPipeline {
 
 impl Drop for RayPipeline {
     fn drop(&mut self) {
-        if !self.gpu.0.hangs() {
-            // SAFETY: every submission that uses it was waited for.
-            unsafe { self.gpu.0.raw.destroy_pipeline(self.raw, None) };
-        }
+        let raw = self.raw;
+        // SAFETY: nothing that uses it is under way.
+        self.gpu.0.discard(move |gpu| unsafe { gpu.raw.destroy_pipeline(raw, None) });
     }
 }
