@@ -94,7 +94,7 @@ impl FromStr for Wanted {
 /// # Errors
 /// If there is no Vulkan.
 pub fn adapters() -> Result<Vec<Adapter>, VulkanError> {
-    list(&Instance::new(Validation::Off)?.raw)
+    list(&Instance::get(Validation::Off)?.raw)
 }
 
 /// All adapters of an instance, best first.

@@ -18,13 +18,15 @@ use std::time::Duration;
 pub struct Options {
     /// Whether the validation layer listens.
     pub validation: Validation,
+    /// Whether pipelines keep what the driver's compiler says of them, where it says anything: [`crate::RayPipeline::statistics`].
+    pub pipeline_statistics: bool,
     /// A submission that takes longer counts as a hang; ten times that on a driver that computes on the processor.
     pub patience: Duration,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { validation: Validation::Off, patience: Duration::from_secs(60) }
+        Options { validation: Validation::Off, pipeline_statistics: false, patience: Duration::from_secs(60) }
     }
 }
 
@@ -39,6 +41,8 @@ pub(crate) struct Shared {
     pub(crate) raw: ash::Device,
     pub(crate) acceleration: ash::khr::acceleration_structure::Device,
     pub(crate) pipelines: ash::khr::ray_tracing_pipeline::Device,
+    /// If pipelines keep statistics.
+    pub(crate) executables: Option<ash::khr::pipeline_executable_properties::Device>,
     pub(crate) queue: Mutex<vk::Queue>,
     /// Command buffers that wait for work.
     pub(crate) idle: Mutex<Vec<Slot>>,
@@ -47,7 +51,7 @@ pub(crate) struct Shared {
     work: Mutex<Work>,
     names: Option<ash::ext::debug_utils::Device>,
     state: State,
-    pub(crate) instance: ManuallyDrop<Instance>,
+    pub(crate) instance: ManuallyDrop<Arc<Instance>>,
 }
 
 /// How large things may be, and how they must lie.
@@ -99,9 +103,10 @@ impl Gpu {
     /// # Errors
     /// If there is no Vulkan or no such adapter, if it lacks something, or if its driver refuses.
     pub fn open(wanted: &Wanted, options: Options) -> Result<Self, VulkanError> {
-        let instance = Instance::new(options.validation)?;
+        let instance = Instance::get(options.validation)?;
         let adapters = adapters::list(&instance.raw)?;
-        let adapter = adapters::choose(&adapters, wanted)?.clone();
+        let mut adapter = adapters::choose(&adapters, wanted)?.clone();
+        adapter.features.pipeline_statistics &= options.pipeline_statistics;
         let raw = create_device(&instance, &adapter)?;
         // SAFETY: nothing was made with the device yet.
         let memory = Memory::new(&instance.raw, &raw, &adapter)
@@ -110,6 +115,10 @@ impl Gpu {
             limits: limits(&instance.raw, &adapter),
             acceleration: ash::khr::acceleration_structure::Device::new(&instance.raw, &raw),
             pipelines: ash::khr::ray_tracing_pipeline::Device::new(&instance.raw, &raw),
+            executables: adapter
+                .features
+                .pipeline_statistics
+                .then(|| ash::khr::pipeline_executable_properties::Device::new(&instance.raw, &raw)),
             // SAFETY: the device was created with one queue of this family.
             queue: Mutex::new(unsafe { raw.get_device_queue(adapter.queue_family, 0) }),
             idle: Mutex::default(),

@@ -2,7 +2,7 @@
 
 use super::{gpu, silent};
 use crate::replay::Replay;
-use crate::{Buffer, Gpu, Options, PipelineCache, Purpose, SceneOptions, Validation, VulkanError, Wanted};
+use crate::{Buffer, Gpu, Options, PipelineCache, Purpose, SceneOptions, VulkanError, Wanted};
 use glam::Vec3;
 use lumbre_scene::compiled::CompiledScene;
 use lumbre_scene::{
@@ -131,7 +131,7 @@ fn a_hang_is_an_error() {
     if gpu().is_none() {
         return;
     }
-    let options = Options { validation: Validation::Off, patience: std::time::Duration::ZERO };
+    let options = Options { patience: std::time::Duration::ZERO, ..Options::default() };
     let gpu = Gpu::open(&Wanted::Best, options).unwrap();
     // Not even the smallest work is done at once.
     let buffer = Buffer::new(&gpu, "filled", 256 << 20, Purpose::Data).unwrap();
