@@ -36,10 +36,10 @@ fn samples(dir: &Path, name: &str) -> f32 {
 /// `dir/b.exr` is `dir/a.exr` but for roundings; a picture with other samples is not.
 fn assert_alike(dir: &Path, a: &str, b: &str) {
     let d = dir.display();
-    lumbre(&format!("compare {d}/{a} {d}/{b} --fail-above relmse=1e-6")).exits(0);
+    lumbre(&format!("compare {d}/{a} {d}/{b} --fail-above relmse=1e-10")).exits(0);
     let other = draw(dir, "other.exr", "--device cpu --spp 64 --seed 9", &[]);
     other.exits(0);
-    lumbre(&format!("compare {d}/{a} {d}/other.exr --fail-above relmse=1e-6")).exits(1);
+    lumbre(&format!("compare {d}/{a} {d}/other.exr --fail-above relmse=1e-10")).exits(1);
 }
 
 #[test]
