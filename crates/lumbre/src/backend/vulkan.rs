@@ -10,6 +10,9 @@ use std::ops::Range;
 
 pub(super) use lumbre_vulkan::Gpu;
 
+/// For tests: a driver that runs on the CPU counts as a GPU.
+const SOFTWARE: &str = "LUMBRE_TEST_SOFTWARE_GPU";
+
 /// The GPUs, the best first.
 ///
 /// # Errors
@@ -24,6 +27,7 @@ pub(super) fn adapters() -> Result<Vec<DeviceInfo>, String> {
 
 fn info(a: Adapter) -> DeviceInfo {
     let kind = match a.kind {
+        Kind::Cpu if std::env::var_os(SOFTWARE).is_some() => DeviceKind::OtherGpu,
         Kind::Discrete => DeviceKind::DiscreteGpu,
         Kind::Integrated => DeviceKind::IntegratedGpu,
         Kind::Virtual => DeviceKind::VirtualGpu,
@@ -90,6 +94,11 @@ impl Backend for VulkanBackend {
         control: &dyn Control,
     ) -> Result<Progress, RenderError> {
         VulkanBackend::render(self, view, samples, film, control).map_err(|e| failed(self, &e))
+    }
+
+    fn warm_up(&self, view: &View) -> Result<(), RenderError> {
+        // No sample of a film of one pixel: all but the work itself.
+        Backend::render(self, view, 0..0, &mut Film::new(1, 1), &()).map(drop)
     }
 
     fn pass_times(&self) -> Vec<PassTime> {
