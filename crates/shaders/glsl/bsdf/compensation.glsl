@@ -91,10 +91,11 @@ struct Facets {
     float pdf;
 };
 
-// `wi` on either side: what is transmitted by a thin wall is the reflection lobe seen in the mirror of the wall. `wo.z > 0`.
-Facets facets_between(Ggx ggx, vec3 wo, vec3 wi) {
+// `wi` on either side: what is transmitted by a thin wall is the reflection lobe seen in the mirror of the wall. `wo.z > 0`; `at_o` is
+// `rough_directional` there.
+Facets facets_between(Ggx ggx, Directional at_o, vec3 wo, vec3 wi) {
     Facets facets;
-    facets.at_o = rough_directional(ggx, wo);
+    facets.at_o = at_o;
     facets.at_i = rough_directional(ggx, wi);
     facets.cos_d = 0.0;
     facets.value = 0.0;

@@ -78,11 +78,11 @@ Spectrum dielectric_base_eval_pdf(DielectricBase self_, Facets facets, vec3 wo, 
     return f;
 }
 
-// Draws a direction; `m` is a visible normal drawn with `u`.
-bool dielectric_base_draw(DielectricBase self_, vec3 wo, vec3 m, float u_lobe, vec2 u, uint mode, out BsdfSample drawn) {
+// Draws a direction; `at_o` is `rough_directional` towards `wo`, `m` a visible normal drawn with `u`. The scale of radiance that crosses is
+// left to the caller.
+bool dielectric_base_draw(DielectricBase self_, Directional at_o, vec3 wo, vec3 m, float u_lobe, vec2 u, out BsdfSample drawn) {
     if (!dielectric_base_is_bare(self_)) {
-        Shares at_o = interface_shares(self_.over, rough_directional(self_.over.ggx, wo), wo);
-        float p = dielectric_base_prob_specular(self_, at_o);
+        float p = dielectric_base_prob_specular(self_, interface_shares(self_.over, at_o, wo));
         if (u_lobe < p) {
             if (!ggx_is_rough(self_.over.ggx)) {
                 vec3 mirror = vec3(-wo.x, -wo.y, wo.z);
@@ -96,9 +96,6 @@ bool dielectric_base_draw(DielectricBase self_, vec3 wo, vec3 m, float u_lobe, v
     }
     vec3 wi = diffuse_sample(self_.diffuse, wo, u_lobe, u);
     drawn = bsdf_sample_open(wi, diffuse_lobe(wi));
-    if (HAS_DIFFUSE_TRANSMISSION && drawn.lobe == LOBE_DIFFUSE_TRANSMISSION) {
-        drawn.eta_scale = diffuse_crossing(self_.diffuse, mode);
-    }
     return true;
 }
 

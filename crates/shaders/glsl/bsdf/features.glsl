@@ -9,7 +9,7 @@ layout(constant_id = 10) const bool HAS_METAL = true;
 layout(constant_id = 11) const bool HAS_BASE = true;
 // The gloss of MTL.
 layout(constant_id = 12) const bool HAS_GLOSS = true;
-// transmission > 0 at the boundary of a solid.
+// The boundary of a solid, whether it transmits or not.
 layout(constant_id = 13) const bool HAS_SOLID = true;
 // transmission > 0 at a thin wall.
 layout(constant_id = 14) const bool HAS_THIN = true;

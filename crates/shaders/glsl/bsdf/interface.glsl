@@ -56,33 +56,39 @@ Spectrum interface_reflectance(Interface self_, float cosine) {
     return plain;
 }
 
-// Reflectance at visible facets, by what each reflects.
+// Reflectance at visible facets, by what each reflects; at the one facet of a smooth interface, and where none of the facets counts. The loop
+// asks for a reflectance in one place: a film's is long, and compilers copy it to each.
 Spectrum interface_mean_over_facets(Interface self_, vec3 w) {
     Spectrum sum = BLACK;
     float weights = 0.0;
-    for (int k = 0; k < 5; k++) {
-        vec3 m = ggx_sample_visible_normal(self_.ggx, w, INTERFACE_FACETS[k]);
-        vec3 wi = mirror_about(w, m);
-        if (wi.z > 0.0) {
-            // G2/G1, Heitz 2018.
-            float weight = wi.z * (w.z + ggx_stretched_length(self_.ggx, w)) * 2.0 * ggx_visibility(self_.ggx, w, wi);
-            sum += interface_reflectance(self_, dot(w, m)) * weight;
+    for (int k = ggx_is_rough(self_.ggx) ? 0 : 5; k < 6; k++) {
+        float weight = 0.0;
+        float cosine = w.z;
+        if (k < 5) {
+            vec3 m = ggx_sample_visible_normal(self_.ggx, w, INTERFACE_FACETS[k]);
+            vec3 wi = mirror_about(w, m);
+            if (wi.z > 0.0) {
+                // G2/G1, Heitz 2018.
+                weight = wi.z * (w.z + ggx_stretched_length(self_.ggx, w)) * 2.0 * ggx_visibility(self_.ggx, w, wi);
+                cosine = dot(w, m);
+            }
+        } else if (weights == 0.0) {
+            weight = 1.0;
+        }
+        if (weight > 0.0) {
+            sum += interface_reflectance(self_, cosine) * weight;
             weights += weight;
         }
     }
-    return weights > 0.0 ? sum * (1.0 / weights) : interface_reflectance(self_, w.z);
+    return sum * (1.0 / weights);
 }
 
 Shares interface_shares_of_film(Interface self_, Directional at, vec3 w) {
     w.z = abs(w.z);
-    Spectrum f;
-    float most;
+    Spectrum f = interface_mean_over_facets(self_, w);
+    float most = max_component(f);
     if (ggx_is_rough(self_.ggx)) {
-        f = interface_mean_over_facets(self_, w);
-        most = min(max_component(f) + INTERFACE_MARGIN, 1.0);
-    } else {
-        f = interface_reflectance(self_, w.z);
-        most = max_component(f);
+        most = min(most + INTERFACE_MARGIN, 1.0);
     }
     float kept = 1.0 - at.deficit;
     return Shares(kept * average(f), at.deficit + kept * (1.0 - most));

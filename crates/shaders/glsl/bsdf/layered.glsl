@@ -40,7 +40,6 @@ bool bsdf_has_layers(Bsdf self_) {
 // The surface with the given parameters.
 Bsdf bsdf_new(BsdfParams params) {
     Bsdf self_;
-    self_.mixture = mixture_new(params);
     float factor = HAS_COAT && params.has_coat ? unit_interval(params.coat_factor) : 0.0;
     self_.coat = coat_new(factor, params.coat_roughness, params.coat_normal);
     Spectrum color = BLACK;
@@ -51,10 +50,9 @@ Bsdf bsdf_new(BsdfParams params) {
     bool solid = !params.thin;
     self_.here = !(solid && params.inside);
     self_.beyond = !solid || params.inside;
-    self_.mixture_mean = 0.0;
-    if (bsdf_has_layers(self_)) {
-        self_.mixture_mean = average(mixture_albedo(self_.mixture));
-    }
+    Spectrum albedo;
+    self_.mixture = mixture_new(params, bsdf_has_layers(self_), albedo);
+    self_.mixture_mean = average(albedo);
     return self_;
 }
 
@@ -144,7 +142,7 @@ Spectrum layers_eval_pdf(Bsdf self_, LayersView view, vec3 wo, vec3 wi, Spectrum
 
 // f · |cos θi| and the density of `bsdf_sample`, sr⁻¹, smooth lobes only.
 Spectrum bsdf_eval_pdf(Bsdf self_, vec3 wo, vec3 wi, uint mode, out float pdf) {
-    Spectrum f = mixture_eval_pdf(self_.mixture, wo, wi, mode, pdf);
+    Spectrum f = mixture_eval_pdf(self_.mixture, mixture_towards(self_.mixture, wo), wo, wi, mode, pdf);
     if (!bsdf_has_layers(self_)) {
         return f;
     }
@@ -173,8 +171,11 @@ bool bsdf_has_one_lobe(Bsdf self_) {
     return !bsdf_has_layers(self_) && mixture_has_one_lobe(self_.mixture);
 }
 
-// Draws a direction, of a coat, of sheen or of what lies beneath; `prob` is that of this choice. `view` is read where there are layers.
-bool layers_draw(Bsdf self_, LayersView view, vec3 wo, float u_lobe, vec2 u, uint mode, out float prob, out BsdfSample drawn) {
+// Draws a direction, of a coat, of sheen or of what lies beneath; `prob` is that of this choice. `view` is read where there are layers;
+// `at_o` is `mixture_towards` for `wo`.
+bool layers_draw(
+    Bsdf self_, LayersView view, Directional at_o, vec3 wo, float u_lobe, vec2 u, uint mode, out float prob, out BsdfSample drawn
+) {
     float below = view.prob_coat + view.prob_sheen;
     if (bsdf_has_coat(self_) && u_lobe < view.prob_coat) {
         prob = view.prob_coat;
@@ -187,7 +188,7 @@ bool layers_draw(Bsdf self_, LayersView view, vec3 wo, float u_lobe, vec2 u, uin
     }
     prob = view.prob_mixture;
     u_lobe = clamp((u_lobe - below) / view.prob_mixture, 0.0, ONE_MINUS_EPSILON);
-    if (!mixture_draw(self_.mixture, wo, u_lobe, u, mode, drawn)) {
+    if (!mixture_draw(self_.mixture, at_o, wo, u_lobe, u, mode, drawn)) {
         return false;
     }
     if (lobe_is_delta(drawn.lobe)) {
@@ -208,8 +209,9 @@ bool bsdf_sample(Bsdf self_, vec3 wo, float u_lobe, vec2 u, uint mode, out BsdfS
     if (layers) {
         view = layers_at(self_, wo);
     }
+    Directional at_o = mixture_towards(self_.mixture, wo);
     float prob;
-    if (!layers_draw(self_, view, wo, u_lobe, u, mode, prob, drawn)) {
+    if (!layers_draw(self_, view, at_o, wo, u_lobe, u, mode, prob, drawn)) {
         return false;
     }
     if (lobe_is_delta(drawn.lobe)) {
@@ -227,7 +229,7 @@ bool bsdf_sample(Bsdf self_, vec3 wo, float u_lobe, vec2 u, uint mode, out BsdfS
         return false;
     }
     float pdf;
-    Spectrum f = mixture_eval_pdf(self_.mixture, wo, drawn.wi, mode, pdf);
+    Spectrum f = mixture_eval_pdf(self_.mixture, at_o, wo, drawn.wi, mode, pdf);
     if (layers) {
         f = layers_eval_pdf(self_, view, wo, drawn.wi, f, pdf);
     }

@@ -82,8 +82,8 @@ Spectrum metal_eval_pdf(Metal self_, Facets facets, vec3 wi, out float pdf) {
     return metal_reflectance(self_.f0, self_.film, facets.cos_d) * facets.value + self_.f_ms * multiple;
 }
 
-// Draws a direction; `m` is a visible normal drawn with `u`.
-bool metal_draw(Metal self_, vec3 wo, vec3 m, float u_lobe, vec2 u, out BsdfSample drawn) {
+// Draws a direction; `at_o` is `rough_directional` towards `wo`, `m` a visible normal drawn with `u`.
+bool metal_draw(Metal self_, Directional at_o, vec3 wo, vec3 m, float u_lobe, vec2 u, out BsdfSample drawn) {
     if (!ggx_is_rough(self_.ggx)) {
         vec3 mirror = vec3(-wo.x, -wo.y, wo.z);
         Spectrum f = metal_reflectance(self_.f0, self_.film, wo.z);
@@ -91,7 +91,7 @@ bool metal_draw(Metal self_, vec3 wo, vec3 m, float u_lobe, vec2 u, out BsdfSamp
         return true;
     }
     vec3 wi;
-    if (u_lobe < metal_prob_multiple(self_, albedo_directional(self_.ggx, wo))) {
+    if (u_lobe < metal_prob_multiple(self_, at_o)) {
         wi = compensation_sample(self_.compensation, u);
     } else {
         wi = mirror_about(wo, m);

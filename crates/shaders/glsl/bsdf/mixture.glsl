@@ -166,8 +166,13 @@ void mixture_set_base(inout Mixture self_, BsdfParams params) {
     }
 }
 
-// The surface with the given parameters.
-Mixture mixture_new(BsdfParams params) {
+// Hemispherical albedo, given that of the components.
+Spectrum mixture_albedo_of(Mixture self_, Spectrum metal, Spectrum base, Spectrum transmissive) {
+    return min(metal * self_.weights.x + base * self_.weights.y + transmissive * self_.weights.z, 1.0);
+}
+
+// The surface with the given parameters. With `layered` its albedo is found, which layers over it ask for; else that is black.
+Mixture mixture_new(BsdfParams params, bool layered, out Spectrum albedo) {
     Mixture self_;
     self_.base_color = unit_interval(params.base_color);
     float metallic = HAS_METAL ? unit_interval(params.metallic) : 0.0;
@@ -202,9 +207,14 @@ Mixture mixture_new(BsdfParams params) {
         self_.base_f90 = 0.0;
         self_.base_scale = 1.0;
     }
-    if (!mixture_is_single(self_)) {
+    albedo = BLACK;
+    if (layered || !mixture_is_single(self_)) {
         Spectrum metal, base, transmissive;
         mixture_albedos(self_, metal, base, transmissive);
+        albedo = mixture_albedo_of(self_, metal, base, transmissive);
+        if (mixture_is_single(self_)) {
+            return self_;
+        }
         vec3 means = vec3(average(metal), average(base), average(transmissive));
         self_.probs = self_.weights * (means + MIXTURE_ALBEDO_FLOOR);
         self_.probs /= self_.probs.x + self_.probs.y + self_.probs.z;
@@ -239,22 +249,33 @@ bool mixture_has_smooth_lobes(Mixture self_) {
 Spectrum mixture_albedo(Mixture self_) {
     Spectrum metal, base, transmissive;
     mixture_albedos(self_, metal, base, transmissive);
-    return min(metal * self_.weights.x + base * self_.weights.y + transmissive * self_.weights.z, 1.0);
+    return mixture_albedo_of(self_, metal, base, transmissive);
 }
 
-// f · |cos θi| and the density of sampling, sr⁻¹, smooth lobes only.
-Spectrum mixture_eval_pdf(Mixture self_, vec3 wo, vec3 wi, uint mode, out float pdf) {
+// True where a component asks for the albedo of the facets.
+bool mixture_asks_for_albedo(Mixture self_) {
+    bool over_base = HAS_BASE && mixture_has_base(self_) && !mixture_is_gloss(self_) && self_.base_f90 > 0.0;
+    return mixture_has_metal(self_) || mixture_has_thin(self_) || over_base;
+}
+
+// E and B of the facets towards `wo`, if a component asks: what drawing and evaluating share.
+Directional mixture_towards(Mixture self_, vec3 wo) {
+    if (mixture_asks_for_albedo(self_)) {
+        return rough_directional(self_.ggx, wo);
+    }
+    return Directional(0.0, 0.0);
+}
+
+// f · |cos θi| and the density of sampling, sr⁻¹, smooth lobes only. `at_o` is `mixture_towards` there.
+Spectrum mixture_eval_pdf(Mixture self_, Directional at_o, vec3 wo, vec3 wi, uint mode, out float pdf) {
     pdf = 0.0;
     Spectrum f = BLACK;
     if (wo.z < MIN_COS) {
         return f;
     }
-    bool over_base = mixture_has_base(self_) && !mixture_is_gloss(self_) && HAS_BASE && self_.base_f90 > 0.0;
-    Facets facets;
-    if (mixture_has_metal(self_) || mixture_has_thin(self_) || over_base) {
-        facets = facets_between(self_.ggx, wo, wi);
-    } else {
-        facets = Facets(Directional(0.0, 0.0), Directional(0.0, 0.0), 0.0, 0.0, 0.0);
+    Facets facets = Facets(at_o, at_o, 0.0, 0.0, 0.0);
+    if (mixture_asks_for_albedo(self_)) {
+        facets = facets_between(self_.ggx, at_o, wo, wi);
     }
     float pdf_c;
     if (mixture_has_metal(self_)) {
@@ -304,8 +325,9 @@ uint mixture_choose(Mixture self_, inout float u_lobe) {
     return chosen;
 }
 
-// Draws a direction. False when the path ends here. Weight and density of a smooth lobe are left to the caller.
-bool mixture_draw(Mixture self_, vec3 wo, float u_lobe, vec2 u, uint mode, out BsdfSample drawn) {
+// Draws a direction. False when the path ends here. Weight and density of a smooth lobe are left to the caller. `at_o` is
+// `mixture_towards` for `wo`.
+bool mixture_draw(Mixture self_, Directional at_o, vec3 wo, float u_lobe, vec2 u, uint mode, out BsdfSample drawn) {
     drawn = bsdf_sample_open(vec3(0.0, 0.0, 1.0), LOBE_DIFFUSE_REFLECTION);
     if (wo.z < MIN_COS) {
         return false;
@@ -323,17 +345,20 @@ bool mixture_draw(Mixture self_, vec3 wo, float u_lobe, vec2 u, uint mode, out B
     }
     bool found = false;
     if (chosen == 0 && HAS_METAL) {
-        found = metal_draw(mixture_metal(self_), wo, m, u_lobe, u, drawn);
+        found = metal_draw(mixture_metal(self_), at_o, wo, m, u_lobe, u, drawn);
     } else if (chosen == 1) {
         if (mixture_is_gloss(self_)) {
-            found = phong_draw(mixture_gloss(self_), wo, u_lobe, u, mode, drawn);
+            found = phong_draw(mixture_gloss(self_), wo, u_lobe, u, drawn);
         } else {
-            found = dielectric_base_draw(mixture_base(self_), wo, m, u_lobe, u, mode, drawn);
+            found = dielectric_base_draw(mixture_base(self_), at_o, wo, m, u_lobe, u, drawn);
+        }
+        if (HAS_DIFFUSE_TRANSMISSION && drawn.lobe == LOBE_DIFFUSE_TRANSMISSION) {
+            drawn.eta_scale = diffuse_crossing(self_.diffuse, mode);
         }
     } else if (solid) {
         found = dielectric_draw(mixture_solid(self_), wo, m, u_lobe, mode, drawn);
     } else if (HAS_THIN) {
-        found = thin_draw(mixture_thin(self_), wo, m, u_lobe, u, drawn);
+        found = thin_draw(mixture_thin(self_), at_o, wo, m, u_lobe, u, drawn);
     }
     if (HAS_MIXTURE && found && lobe_is_delta(drawn.lobe) && !mixture_is_single(self_)) {
         float weight = chosen == 0 ? self_.weights.x : chosen == 1 ? self_.weights.y : self_.weights.z;

@@ -118,8 +118,8 @@ Spectrum phong_eval_pdf(Phong self_, vec3 wo, vec3 wi, uint mode, out float pdf)
     return f;
 }
 
-// Draws a direction.
-bool phong_draw(Phong self_, vec3 wo, float u_lobe, vec2 u, uint mode, out BsdfSample drawn) {
+// Draws a direction. The scale of radiance that crosses is left to the caller.
+bool phong_draw(Phong self_, vec3 wo, float u_lobe, vec2 u, out BsdfSample drawn) {
     float p = phong_prob_specular(self_, wo.z);
     if (u_lobe < p) {
         vec3 mirror = vec3(-wo.x, -wo.y, wo.z);
@@ -133,9 +133,6 @@ bool phong_draw(Phong self_, vec3 wo, float u_lobe, vec2 u, uint mode, out BsdfS
     u_lobe = clamp((u_lobe - p) / (1.0 - p), 0.0, ONE_MINUS_EPSILON);
     vec3 wi = diffuse_sample(self_.diffuse, wo, u_lobe, u);
     drawn = bsdf_sample_open(wi, diffuse_lobe(wi));
-    if (drawn.lobe == LOBE_DIFFUSE_TRANSMISSION) {
-        drawn.eta_scale = diffuse_crossing(self_.diffuse, mode);
-    }
     return true;
 }
 

@@ -120,8 +120,8 @@ Spectrum thin_eval_pdf(Thin self_, Facets facets, vec3 wi, out float pdf) {
         + multiple * compensation_eval(self_.compensation, facets.at_o.deficit, facets.at_i.deficit, cos_i);
 }
 
-// Draws a direction; `m` is a visible normal drawn with `u`. The slab's reflectance chooses between the two sides.
-bool thin_draw(Thin self_, vec3 wo, vec3 m, float u_lobe, vec2 u, out BsdfSample drawn) {
+// Draws a direction; `at_o` is `rough_directional` towards `wo`, `m` a visible normal drawn with `u`. The slab's reflectance chooses between the two sides.
+bool thin_draw(Thin self_, Directional at_o, vec3 wo, vec3 m, float u_lobe, vec2 u, out BsdfSample drawn) {
     if (!ggx_is_rough(self_.ggx)) {
         Slab slab = thin_slab(self_.ior, self_.film, self_.tint, min(wo.z, 1.0));
         float prob = slab_prob_reflected(slab);
@@ -132,7 +132,7 @@ bool thin_draw(Thin self_, vec3 wo, vec3 m, float u_lobe, vec2 u, out BsdfSample
         }
         return true;
     }
-    float p = thin_prob_multiple(self_, albedo_directional(self_.ggx, wo));
+    float p = thin_prob_multiple(self_, at_o);
     vec3 wi;
     float prob;
     float u_side;

@@ -5,6 +5,7 @@
 //! or two roundings, and its answer may differ from the other side's by three times what that changes, and a ten thousandth.
 
 mod cases;
+mod features;
 mod planted;
 
 use super::{evaluate, kernel};

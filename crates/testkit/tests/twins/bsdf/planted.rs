@@ -111,7 +111,8 @@ fn a_wrong_parameter_is_found() {
 #[test]
 fn a_wrong_answer_is_found() {
     let Some(answers) = answers() else { return };
-    let (case, gpu) = &answers[0];
+    let drawn = answers.iter().find(|(c, o)| c.family == "films" && o.found == 1 && o.lobe == 2);
+    let (case, gpu) = drawn.expect("a film with facets");
     assert_eq!(verdict(case, gpu), Verdict::Near);
     let white = Spectrum::WHITE.to_array();
     for wrong in [
@@ -123,6 +124,11 @@ fn a_wrong_answer_is_found() {
         super::Output { f: white, ..*gpu },
         super::Output { pdf: f32::NAN, ..*gpu },
         super::Output { found: 1 - gpu.found, ..*gpu },
+        super::Output { lobe: gpu.lobe + 1, ..*gpu },
+        super::Output { weight: white.map(|w| 2.0 * w), ..*gpu },
+        super::Output { sample_pdf: 1.01 * gpu.sample_pdf, ..*gpu },
+        super::Output { wi: [gpu.wi[1], gpu.wi[0], gpu.wi[2]], ..*gpu },
+        super::Output { eta_scale: 0.99, ..*gpu },
     ] {
         assert_ne!(verdict(case, &wrong), Verdict::Near, "{wrong:?}");
     }
