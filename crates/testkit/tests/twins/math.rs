@@ -81,7 +81,7 @@ fn columns() -> Columns {
         .then("cosine", 1, 1e-12, 3e-7)
         .then("tangent", 1, 1e-12, 2e-6)
         .then("arc cosine", 1, 1e-30, 6e-7)
-        .then("arc tangent", 1, 1e-30, 6e-7)
+        .then("arc tangent", 1, 1e-30, 1e-6)
         .then("exp", 1, 2e-38, 4e-7)
         .then("exp2", 1, 2e-38, 4e-7)
         .then("ln", 1, 2e-7, 3e-7)

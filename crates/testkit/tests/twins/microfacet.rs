@@ -89,8 +89,8 @@ fn columns() -> Columns {
         .then("widths", 2, 0.0, 3e-7)
         .then("g1", 1, 0.0, 2e-6)
         .then("visibility", 1, 0.0, 2e-6)
-        .then("normal", 3, 5e-6, 1e-5)
-        .then("mirrored", 3, 1e-5, 1e-5)
+        .then("normal", 3, 1e-5, 1e-5)
+        .then("mirrored", 3, 2e-5, 1e-5)
         .then("d", 1, 0.0, 3e-6)
         .then("pdf_normal", 1, 1e-6, 1e-5)
         .then("reflected", 1, 1e-12, 1e-3)
@@ -110,7 +110,7 @@ fn is_unsteady(i: &Input) -> bool {
         Input { u: [u + f32::EPSILON, v], ..*i },
         Input { u: [u, v + f32::EPSILON], ..*i },
     ];
-    moved.iter().any(|m| (normal(m) - normal(i)).abs().max_element() > 4e-6)
+    moved.iter().any(|m| (normal(m) - normal(i)).abs().max_element() > 2e-6)
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn facets_are_the_same() {
     let mut inputs = inputs();
     let all = inputs.len();
     inputs.retain(|i| !is_unsteady(i));
-    assert!(inputs.len() > all - all / 50, "{} of {all} are steady", inputs.len());
+    assert!(inputs.len() > all - all / 20, "{} of {all} are steady", inputs.len());
     let Some(gpu) = evaluate::<_, Output>(kernel!("microfacet"), &[], &inputs) else { return };
     let rust: Vec<_> = inputs.iter().map(twin).collect();
     columns().assert_near(&rust, &gpu, 0.0);
