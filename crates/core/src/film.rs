@@ -88,6 +88,20 @@ pub struct Film {
     non_finite: Vec<NonFinite>,
 }
 
+/// A piece of the work of [`Film::merge_tasks`].
+#[derive(Debug)]
+pub struct MergeTask<'a> {
+    to: &'a mut [PixelSums],
+    from: &'a [PixelSums],
+}
+
+impl MergeTask<'_> {
+    /// Does it.
+    pub fn run(self) {
+        self.to.iter_mut().zip(self.from).for_each(|(a, b)| a.merge(b));
+    }
+}
+
 fn quantise(x: f32) -> i64 {
     // Rounds half away from zero, without a call where the processor has no instruction for it. `as` saturates; NaN cannot
     // come here.
@@ -330,8 +344,22 @@ impl Film {
         assert_eq!(sums.len() as u64, u64::from(width) * u64::from(height), "sums of {part:?}");
         for (y, row) in sums.chunks_exact(width.max(1) as usize).enumerate() {
             let to = self.index(at[0], at[1] + y as u32);
-            self.pixels[to..to + row.len()].iter_mut().zip(row).for_each(|(a, b)| a.merge(b));
+            MergeTask { to: &mut self.pixels[to..to + row.len()], from: row }.run();
         }
+    }
+
+    /// The same for a part that is the whole film, in about `tasks` pieces of work that may be done at the same time.
+    ///
+    /// # Panics
+    /// If `sums` has another number of pixels.
+    pub fn merge_tasks<'a>(
+        &'a mut self,
+        sums: &'a [PixelSums],
+        tasks: usize,
+    ) -> impl Iterator<Item = MergeTask<'a>> {
+        assert_eq!(sums.len(), self.pixels.len(), "sums of a film");
+        let piece = sums.len().div_ceil(tasks.max(1)).max(1);
+        self.pixels.chunks_mut(piece).zip(sums.chunks(piece)).map(|(to, from)| MergeTask { to, from })
     }
 
     /// Counts `count` samples that were not finite and names those of `some` that come first in reading order. `some` must be all of
@@ -444,6 +472,11 @@ mod tests {
         assert_ne!(other, whole, "one is not named yet");
         other.merge_non_finite(1, &[NonFinite { row_column: [5, 5], sample: 60 }]);
         assert_eq!(other, whole);
+        for tasks in [0, 1, 7, 64, 1000] {
+            let mut pieces = Film::new(8, 8);
+            pieces.merge_tasks(whole.pixels(), tasks).for_each(MergeTask::run);
+            assert_eq!(pieces.pixels(), whole.pixels(), "{tasks} pieces");
+        }
     }
 
     #[test]

@@ -78,6 +78,8 @@ pub fn render(
         looked_at: 0,
         so_far: SoFar::default(),
     };
+    // So that what is done once does not count as the speed of the first pass.
+    let mut warm = false;
     let (ended, failure) = loop {
         if let Some(ended) = run.met() {
             break (ended, None);
@@ -85,7 +87,8 @@ pub fn render(
         if watch.cancelled() {
             break (Ended::Cancelled, None);
         }
-        match run.pass(backend, view, film, watch) {
+        let worked = if warm { Ok(()) } else { backend.warm_up(view) };
+        match worked.and_then(|()| run.pass(backend, view, film, watch)) {
             Ok(true) => watch.passed(film, &run.so_far),
             Ok(false) => break (Ended::Cancelled, None),
             Err(e) => match backend.recover(e) {
@@ -97,6 +100,7 @@ pub fn render(
                 Err(e) => break (Ended::Failed, Some(e)),
             },
         }
+        warm = run.per_sample.is_some();
     };
     if ended != Ended::Cancelled {
         run.look(film);

@@ -132,33 +132,33 @@ bool film_is_finite(FilmSample s) {
 }
 
 // Adds a finite sample.
-void film_add_finite(FilmPixels film, uint at, FilmSample s) {
-    uint saturated = film_add_three(film.at[at].radiance, s.radiance);
+void film_add_finite(inout PixelSums sums, FilmSample s) {
+    uint saturated = film_add_three(sums.radiance, s.radiance);
     // `precise`: no step may be joined with the next, which would round once where Rust rounds twice.
     precise float luminance_ = 0.2126 * s.radiance.r + 0.7152 * s.radiance.g + 0.0722 * s.radiance.b;
     int64_t y = film_quantise(luminance_);
-    saturated += film_add_to(film.at[at].luminance, y);
-    film_add_square(film.at[at].luminance_squared, y);
-    saturated += film_add_to(film.at[at].alpha, film_quantise(s.alpha));
-    film.at[at].samples += 1u;
+    saturated += film_add_to(sums.luminance, y);
+    film_add_square(sums.luminance_squared, y);
+    saturated += film_add_to(sums.alpha, film_quantise(s.alpha));
+    sums.samples += 1u;
     if (s.has_hit) {
-        film.at[at].hits += 1u;
-        saturated += film_add_three(film.at[at].albedo, s.albedo);
-        saturated += film_add_three(film.at[at].normal, s.normal);
-        saturated += film_add_three(film.at[at].position, s.position);
-        saturated += film_add_to(film.at[at].depth, film_quantise(s.depth));
+        sums.hits += 1u;
+        saturated += film_add_three(sums.albedo, s.albedo);
+        saturated += film_add_three(sums.normal, s.normal);
+        saturated += film_add_three(sums.position, s.position);
+        saturated += film_add_to(sums.depth, film_quantise(s.depth));
     }
-    if (saturated > 0u) {
-        uint before = film.at[at].saturated;
-        film.at[at].saturated = before + min(saturated, 0xffffffffu - before);
-    }
+    sums.saturated += min(saturated, 0xffffffffu - sums.saturated);
 }
 
 // Adds sample `index` of the pixel at column and row `pixel` of the picture, which is the film's pixel `at`. One that is not finite is
 // counted and named instead: it enters the sample count as black.
 void film_add(FilmPixels film, NonFiniteList non_finite, uint at, uvec2 pixel, uint index, FilmSample s) {
     if (film_is_finite(s)) {
-        film_add_finite(film, at, s);
+        // All at once, so that loads do not wait for the stores of other sums.
+        PixelSums sums = film.at[at];
+        film_add_finite(sums, s);
+        film.at[at] = sums;
         return;
     }
     film.at[at].samples += 1u;

@@ -24,6 +24,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Ta
     float wavelength_cdf[63];
     // core/src/filter.rs: inverses of the Gaussian and the Blackman-Harris filter.
     float filter_distance[2][257];
+    // core/src/color.rs: linear value of each 8-bit sRGB code.
+    float srgb_decode[256];
 };
 
 #endif

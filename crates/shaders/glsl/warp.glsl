@@ -32,7 +32,9 @@ float cosine_hemisphere_pdf(float cos_theta) {
 
 // The direction of polar cosine `z` at `u` of a full turn.
 vec3 turned(float z, float u) {
-    float r = safe_sqrt(1.0 - z * z);
+    // `precise`: near the poles the root would show whether the square was rounded.
+    precise float r2 = 1.0 - z * z;
+    float r = safe_sqrt(r2);
     float s, c;
     sin_cos(2.0 * PI * u, s, c);
     return vec3(r * c, r * s, z);

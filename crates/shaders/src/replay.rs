@@ -4,6 +4,8 @@ use bytemuck::{Pod, Zeroable};
 
 /// Ray generation.
 pub const RGEN: &[u8] = include_bytes!("../spirv/replay/replay.rgen.spv");
+/// Ray generation that looks textures up instead: [`TextureQuery`]s for rays, [`TextureAnswer`]s for hits.
+pub const TEXTURE_RGEN: &[u8] = include_bytes!("../spirv/replay/texture.rgen.spv");
 /// Closest hit of a path's ray.
 pub const RCHIT: &[u8] = include_bytes!("../spirv/replay/hit.rchit.spv");
 /// Any hit of a ray of any kind. Constant 0, `bool`: all such surfaces let it pass; otherwise none.
@@ -51,6 +53,28 @@ pub struct ReplayHit {
     pub triangle: u32,
     /// Barycentric coordinates of the second and third vertex.
     pub b: [f32; 2],
+}
+
+/// A place of a texture.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct TextureQuery {
+    /// Which texture.
+    pub texture: u32,
+    /// 1: colours are coded by the sRGB curve; 0: all is linear.
+    pub srgb: u32,
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+}
+
+/// What is there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct TextureAnswer {
+    /// From an image.
+    pub value: [f32; 4],
+    /// Alpha from texels in memory; -1 where there are none.
+    pub alpha: f32,
 }
 
 /// Push constants.

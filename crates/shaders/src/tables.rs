@@ -2,6 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use lumbre_core::bsdf::{albedo, aniso_albedo, sheen};
+use lumbre_core::color::srgb_decode_table;
 use lumbre_core::filter::{self, Filter, FilterKind};
 use lumbre_core::rgb::Rgb;
 use lumbre_core::wavelength;
@@ -36,6 +37,8 @@ pub struct Tables {
     pub wavelength_cdf: [f32; wavelength::NODES],
     /// [`Filter::distances`] of [`TABULATED_FILTERS`].
     pub filter_distance: [[f32; filter::TABLE + 1]; TABULATED_FILTERS.len()],
+    /// [`srgb_decode_table`].
+    pub srgb_decode: [f32; 256],
 }
 
 /// Filters that are sampled by a table: the last ones of their kind, so that shaders find a table by its number.
@@ -57,6 +60,7 @@ pub fn tables() -> Vec<u8> {
         wavelength_response: wavelength::Table::get().response,
         wavelength_cdf: wavelength::Table::get().cdf,
         filter_distance: TABULATED_FILTERS.map(|kind| *Filter::new(kind).distances()),
+        srgb_decode: *srgb_decode_table(),
     };
     bytemuck::bytes_of(&tables).to_vec()
 }

@@ -69,7 +69,7 @@ fn rust() -> Vec<(&'static str, Members)> {
         fields!("Push", Push { tables, scene, view, first_pixel, first_sample, sample_count }),
         fields!("Tables", Tables { albedo_deficit, albedo_schlick_excess, albedo_deficit_average, albedo_schlick_average,
             sheen_directional, sheen_average, aniso_deficit, aniso_schlick_residual, aniso_deficit_average, aniso_schlick_average,
-            wavelength_response, wavelength_cdf, filter_distance }),
+            wavelength_response, wavelength_cdf, filter_distance, srgb_decode }),
     ]
 }
 

@@ -58,6 +58,8 @@ pub struct Adapter {
     pub features: Features,
     pub(crate) raw: vk::PhysicalDevice,
     pub(crate) queue_family: u32,
+    /// Bits of the clock of its queue; 0: it has none.
+    pub(crate) clock_bits: u32,
 }
 
 /// Which adapter is meant.
@@ -92,7 +94,7 @@ impl FromStr for Wanted {
 /// # Errors
 /// If there is no Vulkan.
 pub fn adapters() -> Result<Vec<Adapter>, VulkanError> {
-    list(&Instance::new(Validation::Off)?.raw)
+    list(&Instance::get(Validation::Off)?.raw)
 }
 
 /// All adapters of an instance, best first.
@@ -167,6 +169,7 @@ fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<Adapter
         features: Features::default(),
         raw,
         queue_family: 0,
+        clock_bits: 0,
     };
     if version < vk::API_VERSION_1_2 {
         return Ok(adapter);
@@ -180,11 +183,12 @@ fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<Adapter
     let extensions = unsafe { instance.enumerate_device_extension_properties(raw) }
         .called("vkEnumerateDeviceExtensionProperties")?;
     let offer = Offer::of(instance, raw, extensions);
-    let family = queue_family(&unsafe { instance.get_physical_device_queue_family_properties(raw) });
+    let families = unsafe { instance.get_physical_device_queue_family_properties(raw) };
     adapter.missing = offer.missing();
-    match family {
+    match queue_family(&families) {
         Some((family, graphics)) => {
             adapter.queue_family = family;
+            adapter.clock_bits = families[family as usize].timestamp_valid_bits;
             adapter.features = offer.features(graphics);
         }
         None => adapter.missing.push("a queue for compute".to_owned()),
@@ -236,6 +240,7 @@ mod tests {
             features: Features::default(),
             raw: vk::PhysicalDevice::null(),
             queue_family: 0,
+            clock_bits: 0,
         }
     }
 

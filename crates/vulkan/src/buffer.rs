@@ -140,13 +140,11 @@ impl Buffer {
 
 impl Drop for Buffer {
     fn drop(&mut self) {
-        if self.gpu.0.hangs() {
-            return;
-        }
-        // SAFETY: no submission that uses it is under way: those that began while it was borrowed were waited for.
-        unsafe { self.gpu.0.raw.destroy_buffer(self.raw, None) };
-        if let Some(allocation) = self.allocation.take() {
-            self.gpu.0.memory.free(allocation);
-        }
+        let (raw, allocation) = (self.raw, self.allocation.take());
+        self.gpu.0.discard(move |gpu| {
+            // SAFETY: nothing that uses it is under way.
+            unsafe { gpu.raw.destroy_buffer(raw, None) };
+            allocation.into_iter().for_each(|a| gpu.memory.free(a));
+        });
     }
 }

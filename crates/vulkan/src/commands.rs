@@ -21,8 +21,8 @@ pub struct Commands<'a> {
     pub(crate) raw: vk::CommandBuffer,
 }
 
-/// Work that the device has been given. What it uses must live until it was waited for; dropping it waits.
-#[must_use = "what it uses must live until it is done"]
+/// Work that the device has been given; dropping it waits. What it uses and is dropped meanwhile is freed when it is done.
+#[must_use = "dropping it waits"]
 pub struct Pending {
     gpu: Gpu,
     slot: Option<Slot>,
@@ -95,11 +95,13 @@ impl Gpu {
         self.0.alive()?;
         let idle = lock(&self.0.idle).pop();
         let slot = idle.map_or_else(|| Slot::new(self), Ok)?;
+        self.0.begin();
         match self.record_and_submit(&slot, record) {
             Ok(()) => Ok(Pending { gpu: self.clone(), slot: Some(slot), what }),
             Err(error) => {
                 // SAFETY: it was not submitted.
                 unsafe { slot.destroy(&self.0.raw) };
+                self.0.end();
                 self.0.remember(Err(error))
             }
         }
@@ -113,7 +115,7 @@ impl Gpu {
         let device = &self.0.raw;
         let commands = Commands { gpu: self, raw: slot.buffer };
         let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: the slot is idle and owned by this thread; what is recorded lives as long as `Pending` asks.
+        // SAFETY: the slot is idle and owned by this thread; what is recorded lives until it is done (`Shared::discard`).
         unsafe {
             device
                 .reset_command_pool(slot.pool, vk::CommandPoolResetFlags::empty())
@@ -162,6 +164,7 @@ impl Pending {
         match waited {
             Ok(()) => {
                 lock(&self.gpu.0.idle).push(slot);
+                self.gpu.0.end();
                 Ok(())
             }
             // The slot is leaked: the device may be using it.
@@ -172,6 +175,7 @@ impl Pending {
             Err(error) => {
                 // SAFETY: a lost device has finished with everything.
                 unsafe { slot.destroy(&self.gpu.0.raw) };
+                self.gpu.0.end();
                 self.gpu.0.remember(Err(error).called("vkWaitForFences"))
             }
         }

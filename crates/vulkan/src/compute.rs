@@ -58,9 +58,8 @@ impl ComputePipeline {
 
 impl Drop for ComputePipeline {
     fn drop(&mut self) {
-        if !self.gpu.0.hangs() {
-            // SAFETY: every submission that uses it was waited for.
-            unsafe { self.gpu.0.raw.destroy_pipeline(self.raw, None) };
-        }
+        let raw = self.raw;
+        // SAFETY: nothing that uses it is under way.
+        self.gpu.0.discard(move |gpu| unsafe { gpu.raw.destroy_pipeline(raw, None) });
     }
 }

@@ -124,13 +124,11 @@ impl Descriptors {
 
 impl Drop for Descriptors {
     fn drop(&mut self) {
-        if self.gpu.0.hangs() {
-            return;
-        }
-        // SAFETY: every submission that uses it was waited for; null handles are ignored.
-        unsafe {
-            self.gpu.0.raw.destroy_descriptor_pool(self.pool, None);
-            self.gpu.0.raw.destroy_descriptor_set_layout(self.layout, None);
-        }
+        let (pool, layout) = (self.pool, self.layout);
+        // SAFETY: nothing that uses them is under way; null handles are ignored.
+        self.gpu.0.discard(move |gpu| unsafe {
+            gpu.raw.destroy_descriptor_pool(pool, None);
+            gpu.raw.destroy_descriptor_set_layout(layout, None);
+        });
     }
 }

@@ -17,6 +17,8 @@ pub struct Features {
     pub memory_budget: bool,
     /// Rays can be sorted before they are shaded (`VK_NV_ray_tracing_invocation_reorder`).
     pub invocation_reorder: bool,
+    /// Says what its compiler made of shaders (`VK_KHR_pipeline_executable_properties`).
+    pub pipeline_statistics: bool,
     /// Descriptors may be written while command buffers that use them are recorded.
     pub update_after_bind: bool,
     /// Its queue draws, too.
@@ -31,6 +33,7 @@ pub(crate) struct Chain {
     acceleration: vk::PhysicalDeviceAccelerationStructureFeaturesKHR<'static>,
     pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR<'static>,
     reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV<'static>,
+    executables: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
 }
 
 /// What a device offers.
@@ -61,6 +64,9 @@ impl Offer {
         }
         if offer.has(ash::nv::ray_tracing_invocation_reorder::NAME) {
             all = all.push_next(&mut chain.reorder);
+        }
+        if offer.has(ash::khr::pipeline_executable_properties::NAME) {
+            all = all.push_next(&mut chain.executables);
         }
         // SAFETY: a device of this instance; the chain is alive.
         unsafe { instance.get_physical_device_features2(device, &mut all) };
@@ -102,6 +108,8 @@ impl Offer {
             memory_budget: self.has(ash::ext::memory_budget::NAME),
             invocation_reorder: self.has(ash::nv::ray_tracing_invocation_reorder::NAME)
                 && self.chain.reorder.ray_tracing_invocation_reorder == vk::TRUE,
+            pipeline_statistics: self.has(ash::khr::pipeline_executable_properties::NAME)
+                && self.chain.executables.pipeline_executable_info == vk::TRUE,
             update_after_bind: self.chain.v12.descriptor_binding_sampled_image_update_after_bind == vk::TRUE,
             graphics,
         }
@@ -114,6 +122,7 @@ impl Features {
         let optional = [
             (ash::ext::memory_budget::NAME, self.memory_budget),
             (ash::nv::ray_tracing_invocation_reorder::NAME, self.invocation_reorder),
+            (ash::khr::pipeline_executable_properties::NAME, self.pipeline_statistics),
         ];
         REQUIRED_EXTENSIONS.into_iter().chain(optional.into_iter().filter(|e| e.1).map(|e| e.0)).collect()
     }
@@ -135,6 +144,8 @@ impl Features {
             pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default().ray_tracing_pipeline(true),
             reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV::default()
                 .ray_tracing_invocation_reorder(self.invocation_reorder),
+            executables: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()
+                .pipeline_executable_info(self.pipeline_statistics),
         }
     }
 
@@ -153,6 +164,7 @@ impl Chain {
         self.acceleration.p_next = nowhere;
         self.pipeline.p_next = nowhere;
         self.reorder.p_next = nowhere;
+        self.executables.p_next = nowhere;
         self
     }
 
@@ -162,11 +174,17 @@ impl Chain {
         features: &Features,
         create: vk::DeviceCreateInfo<'a>,
     ) -> vk::DeviceCreateInfo<'a> {
-        let create = create
+        let mut create = create
             .push_next(&mut self.v11)
             .push_next(&mut self.v12)
             .push_next(&mut self.acceleration)
             .push_next(&mut self.pipeline);
-        if features.invocation_reorder { create.push_next(&mut self.reorder) } else { create }
+        if features.invocation_reorder {
+            create = create.push_next(&mut self.reorder);
+        }
+        if features.pipeline_statistics {
+            create = create.push_next(&mut self.executables);
+        }
+        create
     }
 }

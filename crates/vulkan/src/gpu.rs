@@ -18,13 +18,15 @@ use std::time::Duration;
 pub struct Options {
     /// Whether the validation layer listens.
     pub validation: Validation,
+    /// Whether pipelines keep what the driver's compiler says of them, where it says anything: [`crate::RayPipeline::statistics`].
+    pub pipeline_statistics: bool,
     /// A submission that takes longer counts as a hang; ten times that on a driver that computes on the processor.
     pub patience: Duration,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { validation: Validation::Off, patience: Duration::from_secs(60) }
+        Options { validation: Validation::Off, pipeline_statistics: false, patience: Duration::from_secs(60) }
     }
 }
 
@@ -39,14 +41,17 @@ pub(crate) struct Shared {
     pub(crate) raw: ash::Device,
     pub(crate) acceleration: ash::khr::acceleration_structure::Device,
     pub(crate) pipelines: ash::khr::ray_tracing_pipeline::Device,
+    /// If pipelines keep statistics.
+    pub(crate) executables: Option<ash::khr::pipeline_executable_properties::Device>,
     pub(crate) queue: Mutex<vk::Queue>,
     /// Command buffers that wait for work.
     pub(crate) idle: Mutex<Vec<Slot>>,
     pub(crate) memory: ManuallyDrop<Memory>,
     pub(crate) patience: Duration,
+    work: Mutex<Work>,
     names: Option<ash::ext::debug_utils::Device>,
     state: State,
-    pub(crate) instance: ManuallyDrop<Instance>,
+    pub(crate) instance: ManuallyDrop<Arc<Instance>>,
 }
 
 /// How large things may be, and how they must lie.
@@ -76,6 +81,16 @@ struct State {
     loses_after: AtomicI64,
 }
 
+/// What is under way, and what is freed when nothing is.
+#[derive(Default)]
+struct Work {
+    submissions: usize,
+    discarded: Vec<Discarded>,
+}
+
+/// Frees a thing that the device may have been using when it was dropped.
+type Discarded = Box<dyn FnOnce(&Shared) + Send>;
+
 impl std::fmt::Debug for Gpu {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("Gpu").field(&self.0.adapter.name).finish()
@@ -88,9 +103,10 @@ impl Gpu {
     /// # Errors
     /// If there is no Vulkan or no such adapter, if it lacks something, or if its driver refuses.
     pub fn open(wanted: &Wanted, options: Options) -> Result<Self, VulkanError> {
-        let instance = Instance::new(options.validation)?;
+        let instance = Instance::get(options.validation)?;
         let adapters = adapters::list(&instance.raw)?;
-        let adapter = adapters::choose(&adapters, wanted)?.clone();
+        let mut adapter = adapters::choose(&adapters, wanted)?.clone();
+        adapter.features.pipeline_statistics &= options.pipeline_statistics;
         let raw = create_device(&instance, &adapter)?;
         // SAFETY: nothing was made with the device yet.
         let memory = Memory::new(&instance.raw, &raw, &adapter)
@@ -99,6 +115,10 @@ impl Gpu {
             limits: limits(&instance.raw, &adapter),
             acceleration: ash::khr::acceleration_structure::Device::new(&instance.raw, &raw),
             pipelines: ash::khr::ray_tracing_pipeline::Device::new(&instance.raw, &raw),
+            executables: adapter
+                .features
+                .pipeline_statistics
+                .then(|| ash::khr::pipeline_executable_properties::Device::new(&instance.raw, &raw)),
             // SAFETY: the device was created with one queue of this family.
             queue: Mutex::new(unsafe { raw.get_device_queue(adapter.queue_family, 0) }),
             idle: Mutex::default(),
@@ -106,6 +126,7 @@ impl Gpu {
             patience: options.patience * if adapter.kind == Kind::Cpu { 10 } else { 1 },
             names: instance.validates().then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw)),
             state: State::default(),
+            work: Mutex::default(),
             instance: ManuallyDrop::new(instance),
             adapter,
             raw,
@@ -181,9 +202,38 @@ impl Shared {
         result
     }
 
-    /// The device may still be using what it was given: that must be leaked.
-    pub(crate) fn hangs(&self) -> bool {
+    /// The device may still be using what it was given: that is leaked.
+    fn hangs(&self) -> bool {
         self.state.hangs.load(Ordering::Relaxed)
+    }
+
+    /// A submission is being recorded: what is dropped from now on may be part of it.
+    pub(crate) fn begin(&self) {
+        lock(&self.work).submissions += 1;
+    }
+
+    /// The device has finished with a submission, or never got it.
+    pub(crate) fn end(&self) {
+        let discarded = {
+            let mut work = lock(&self.work);
+            work.submissions -= 1;
+            if work.submissions > 0 { Vec::new() } else { std::mem::take(&mut work.discarded) }
+        };
+        discarded.into_iter().for_each(|free| free(self));
+    }
+
+    /// Frees something as soon as no submission is under way. So whatever is dropped, and whenever, the device is done with it.
+    pub(crate) fn discard(&self, free: impl FnOnce(&Shared) + Send + 'static) {
+        if self.hangs() {
+            return;
+        }
+        let mut work = lock(&self.work);
+        if work.submissions > 0 {
+            work.discarded.push(Box::new(free));
+        } else {
+            drop(work);
+            free(self);
+        }
     }
 
     /// Gives a thing a name in messages of the validation layer.

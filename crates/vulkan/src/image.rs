@@ -137,19 +137,15 @@ impl Image {
 
 impl Drop for Image {
     fn drop(&mut self) {
-        if self.gpu.0.hangs() {
-            return;
-        }
-        let device = &self.gpu.0.raw;
-        // SAFETY: every submission that uses it was waited for; null views are ignored.
-        unsafe {
-            device.destroy_image_view(self.srgb, None);
-            device.destroy_image_view(self.linear, None);
-            device.destroy_image(self.raw, None);
-        }
-        if let Some(allocation) = self.allocation.take() {
-            self.gpu.0.memory.free(allocation);
-        }
+        let (raw, views, allocation) = (self.raw, [self.srgb, self.linear], self.allocation.take());
+        self.gpu.0.discard(move |gpu| {
+            // SAFETY: nothing that uses it is under way; null views are ignored.
+            unsafe {
+                views.into_iter().for_each(|view| gpu.raw.destroy_image_view(view, None));
+                gpu.raw.destroy_image(raw, None);
+            }
+            allocation.into_iter().for_each(|a| gpu.memory.free(a));
+        });
     }
 }
 
@@ -178,9 +174,8 @@ impl Sampler {
 
 impl Drop for Sampler {
     fn drop(&mut self) {
-        if !self.gpu.0.hangs() {
-            // SAFETY: every submission that uses it was waited for.
-            unsafe { self.gpu.0.raw.destroy_sampler(self.raw, None) };
-        }
+        let raw = self.raw;
+        // SAFETY: nothing that uses it is under way.
+        self.gpu.0.discard(move |gpu| unsafe { gpu.raw.destroy_sampler(raw, None) });
     }
 }

@@ -4,7 +4,7 @@ use crate::error::{Called, VulkanError};
 use ash::vk;
 use std::borrow::Cow;
 use std::ffi::{CStr, c_void};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
@@ -40,11 +40,20 @@ pub(crate) fn entry() -> Result<&'static ash::Entry, VulkanError> {
 }
 
 impl Instance {
-    /// An instance of Vulkan 1.2.
+    /// An instance of Vulkan 1.2. Without validation it is one for the whole process, which lives as long: making one loads the drivers,
+    /// which takes a tenth of a second.
     ///
     /// # Errors
     /// If Vulkan is not installed, is older, or the layer asked for is missing.
-    pub(crate) fn new(validation: Validation) -> Result<Self, VulkanError> {
+    pub(crate) fn get(validation: Validation) -> Result<Arc<Self>, VulkanError> {
+        static PLAIN: OnceLock<Result<Arc<Instance>, VulkanError>> = OnceLock::new();
+        match validation {
+            Validation::Off => PLAIN.get_or_init(|| Self::new(Validation::Off).map(Arc::new)).clone(),
+            _ => Self::new(validation).map(Arc::new),
+        }
+    }
+
+    fn new(validation: Validation) -> Result<Self, VulkanError> {
         let entry = entry()?;
         // SAFETY: no preconditions.
         let version =

@@ -27,6 +27,7 @@ mod replay;
 mod sbt;
 mod scene;
 mod specialisation;
+mod statistics;
 #[cfg(test)]
 mod tests;
 mod timer;
@@ -49,5 +50,6 @@ pub use ray_pipeline::{HitShaders, RayPipeline, RayShaders};
 pub use replay::Replay;
 pub use scene::{SceneOnGpu, SceneOptions};
 pub use specialisation::Specialisation;
+pub use statistics::ShaderStatistics;
 pub use timer::Timer;
 pub use upload::Upload;

@@ -22,6 +22,8 @@ pub(crate) struct Memory {
     adapter: vk::PhysicalDevice,
     knows_budget: bool,
     heaps: vk::PhysicalDeviceMemoryProperties,
+    /// Bytes of all pieces.
+    allocated: AtomicU64,
     /// Bytes that tests leave of it.
     cap: AtomicU64,
 }
@@ -68,6 +70,7 @@ impl Memory {
             knows_budget: adapter.features.memory_budget,
             // SAFETY: an adapter of this instance.
             heaps: unsafe { instance.get_physical_device_memory_properties(adapter.raw) },
+            allocated: AtomicU64::new(0),
             cap: AtomicU64::new(u64::MAX),
         })
     }
@@ -88,10 +91,11 @@ impl Memory {
             needed: requirements.size,
             available,
         };
-        // A driver that is asked for more than there is may move memory to the host's side, or end the process.
+        // A driver that is asked for more than there is may move memory to the host's side, or end the process. What fits into what
+        // it gave already needs nothing more.
         if location == MemoryLocation::GpuOnly {
             let available = self.available();
-            if requirements.size > available {
+            if requirements.size > available && requirements.size > self.spare() {
                 return Err(out(available));
             }
         }
@@ -104,7 +108,8 @@ impl Memory {
             allocation_scheme: AllocationScheme::GpuAllocatorManaged,
         };
         let allocated = lock(&self.allocator).allocate(&description);
-        allocated.map_err(|error| match error {
+        let count = |a: &Allocation| self.allocated.fetch_add(a.size(), Ordering::Relaxed);
+        allocated.inspect(|a| _ = count(a)).map_err(|error| match error {
             AllocationError::OutOfMemory => out(self.available()),
             _ => VulkanError::Call { call: "vkAllocateMemory", result: vk::Result::ERROR_UNKNOWN },
         })
@@ -112,6 +117,7 @@ impl Memory {
 
     /// Gives a piece back.
     pub(crate) fn free(&self, allocation: Allocation) {
+        self.allocated.fetch_sub(allocation.size(), Ordering::Relaxed);
         lock(&self.allocator).free(allocation).expect("a piece of this allocator, freed once");
     }
 
@@ -131,6 +137,11 @@ impl Memory {
         unsafe { self.instance.get_physical_device_memory_properties2(self.adapter, &mut all) };
         // Where pages are only taken when they are touched, the driver's figures lag behind.
         rest.min(budget.heap_budget[largest].saturating_sub(budget.heap_usage[largest]))
+    }
+
+    /// Bytes taken from the driver that no piece uses.
+    fn spare(&self) -> u64 {
+        lock(&self.allocator).capacity().saturating_sub(self.allocated.load(Ordering::Relaxed))
     }
 
     /// Plays a device with this much memory.

@@ -72,7 +72,8 @@ impl Layout {
 
 impl Drop for Layout {
     fn drop(&mut self) {
-        // SAFETY: every submission that uses it was waited for.
-        unsafe { self.gpu.0.raw.destroy_pipeline_layout(self.raw, None) };
+        let raw = self.raw;
+        // SAFETY: nothing that uses it is under way.
+        self.gpu.0.discard(move |gpu| unsafe { gpu.raw.destroy_pipeline_layout(raw, None) });
     }
 }

@@ -9,6 +9,7 @@ use crate::pipeline::{Layout, ShaderModule};
 use crate::sbt::BindingTable;
 use crate::scene::SceneOnGpu;
 use crate::specialisation::Specialisation;
+use crate::statistics::{self, ShaderStatistics};
 use ash::vk;
 use lumbre_shaders::layout::{HitClass, RAY_KINDS};
 
@@ -125,7 +126,12 @@ impl RayPipeline {
                 .specialization_info(&constants)
         };
         let all: Vec<_> = stages.modules.iter().zip(&stages.code).map(stage).collect();
+        let flags = match &gpu.0.executables {
+            Some(_) => vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR,
+            None => vk::PipelineCreateFlags::empty(),
+        };
         let create = [vk::RayTracingPipelineCreateInfoKHR::default()
+            .flags(flags)
             .stages(&all)
             .groups(&groups)
             .max_pipeline_ray_recursion_depth(1)
@@ -138,6 +144,15 @@ impl RayPipeline {
         let [miss, hit] = [shaders.miss.len(), shaders.hits.as_flattened().len()].map(|n| n as u32);
         let table = BindingTable::new(gpu, raw, miss, hit).inspect_err(|_| destroy())?;
         Ok(RayPipeline { gpu: gpu.clone(), raw, layout, descriptors, table })
+    }
+
+    /// What the driver's compiler says of each shader (registers, spills, …); empty if it says nothing or was not asked to
+    /// ([`crate::Options::pipeline_statistics`]).
+    ///
+    /// # Errors
+    /// If memory is out.
+    pub fn statistics(&self) -> Result<Vec<ShaderStatistics>, VulkanError> {
+        self.gpu.0.executables.as_ref().map_or(Ok(Vec::new()), |e| statistics::read(e, self.raw))
     }
 
     /// Launches ray generation for `size` invocations.
@@ -178,9 +193,8 @@ impl RayPipeline {
 
 impl Drop for RayPipeline {
     fn drop(&mut self) {
-        if !self.gpu.0.hangs() {
-            // SAFETY: every submission that uses it was waited for.
-            unsafe { self.gpu.0.raw.destroy_pipeline(self.raw, None) };
-        }
+        let raw = self.raw;
+        // SAFETY: nothing that uses it is under way.
+        self.gpu.0.discard(move |gpu| unsafe { gpu.raw.destroy_pipeline(raw, None) });
     }
 }

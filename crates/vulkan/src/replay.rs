@@ -8,7 +8,8 @@ use crate::scene::SceneOnGpu;
 use crate::specialisation::Specialisation;
 use crate::timer::Timer;
 use crate::upload::Upload;
-use lumbre_shaders::replay::{self, Push, ReplayHit, ReplayRay};
+use bytemuck::Pod;
+use lumbre_shaders::replay::{self, Push, ReplayHit, ReplayRay, TextureAnswer, TextureQuery};
 
 /// A pipeline that replays rays through a scene.
 pub struct Replay<'a> {
@@ -22,10 +23,19 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// If the driver refuses the pipeline, or memory is out.
     pub fn new(scene: &'a SceneOnGpu, all_pass: bool, cache: &PipelineCache) -> Result<Self, VulkanError> {
+        Self::with(scene, replay::RGEN, all_pass, cache)
+    }
+
+    fn with(
+        scene: &'a SceneOnGpu,
+        raygen: &[u8],
+        all_pass: bool,
+        cache: &PipelineCache,
+    ) -> Result<Self, VulkanError> {
         let closest = Some(replay::RCHIT);
         let any = Some(replay::RAHIT);
         let shaders = RayShaders {
-            raygen: replay::RGEN,
+            raygen,
             miss: [replay::PATH_RMISS, replay::SHADOW_RMISS],
             // The rows are those of `HitClass`: opaque, transmissive, covered.
             hits: [
@@ -44,37 +54,56 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// If memory is out, the rays are too many for one launch, or the device is lost.
     pub fn run(&self, rays: &[ReplayRay]) -> Result<(Vec<ReplayHit>, f64), VulkanError> {
+        self.answers(rays)
+    }
+
+    /// An answer for each item, and how long the device took, milliseconds.
+    fn answers<Q: Pod, A: Pod>(&self, items: &[Q]) -> Result<(Vec<A>, f64), VulkanError> {
         let gpu = self.scene.gpu();
-        let (needed, limit) = (rays.len() as u64, self.pipeline.max_invocations());
+        let (needed, limit) = (items.len() as u64, self.pipeline.max_invocations());
         if needed > limit {
             return Err(VulkanError::TooLarge { what: "rays".to_owned(), needed, limit });
         }
-        if rays.is_empty() {
+        if items.is_empty() {
             return Ok((Vec::new(), 0.0));
         }
         let mut upload = Upload::new(gpu);
-        let input = Buffer::with_content(&mut upload, "rays", bytemuck::cast_slice(rays))?;
+        let input = Buffer::with_content(&mut upload, "rays", bytemuck::cast_slice(items))?;
         upload.finish()?;
-        let size = (rays.len() * size_of::<ReplayHit>()) as u64;
+        let size = (items.len() * size_of::<A>()) as u64;
         let output = Buffer::new(gpu, "hits", size, Purpose::Data)?;
         let result = Buffer::new(gpu, "hits on the host", size, Purpose::Readback)?;
         let push = Push {
             scene: self.scene.address(),
             rays: input.address(),
             hits: output.address(),
-            count: rays.len() as u32,
+            count: items.len() as u32,
             unused: 0,
         };
         let timer = Timer::new(gpu, 2)?;
         gpu.run("replayed rays", |c| {
             timer.reset(c);
             timer.stamp(c, 0);
-            self.pipeline.trace(c, bytemuck::bytes_of(&push), [rays.len() as u32, 1, 1]);
+            self.pipeline.trace(c, bytemuck::bytes_of(&push), [items.len() as u32, 1, 1]);
             timer.stamp(c, 1);
             c.barrier();
             c.copy((&output, 0), (&result, 0), size);
             Ok(())
         })?;
         Ok((result.read_as(), timer.milliseconds()?[1]))
+    }
+}
+
+impl SceneOnGpu {
+    /// What textures hold at some places: for tests.
+    ///
+    /// # Errors
+    /// If the driver refuses the pipeline, memory is out, or the device is lost.
+    pub fn look_up(
+        &self,
+        places: &[TextureQuery],
+        cache: &PipelineCache,
+    ) -> Result<Vec<TextureAnswer>, VulkanError> {
+        Ok(Replay::with(self, replay::TEXTURE_RGEN, false, cache)?.answers(places)?.0)
     }
 }

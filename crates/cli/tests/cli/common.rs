@@ -68,7 +68,11 @@ pub(crate) fn command() -> Command {
 /// The program with the GPUs of this machine.
 pub(crate) fn with_gpus() -> Command {
     let mut c = Command::new(env!("CARGO_BIN_EXE_lumbre"));
-    c.env_remove("LUMBRE_SIMD").env_remove("RAYON_NUM_THREADS").env_remove("LUMBRE_TEST_LOSE_DEVICE");
+    c.env_remove("LUMBRE_SIMD")
+        .env_remove("RAYON_NUM_THREADS")
+        .env_remove("LUMBRE_TEST_LOSE_DEVICE")
+        .env_remove("LUMBRE_TEST_GPU_MEMORY")
+        .env_remove("LUMBRE_TEST_SOFTWARE_GPU");
     c
 }
 

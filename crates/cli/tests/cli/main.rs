@@ -7,6 +7,7 @@ mod common;
 mod compare;
 mod devices;
 mod generated;
+mod gpu;
 mod info;
 mod interrupt;
 mod light;

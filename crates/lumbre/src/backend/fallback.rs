@@ -55,6 +55,10 @@ impl Backend for Fallback {
         self.state().current.render(view, samples, film, control)
     }
 
+    fn warm_up(&self, view: &View) -> Result<(), RenderError> {
+        self.state().current.warm_up(view)
+    }
+
     fn recover(&self, error: RenderError) -> Result<String, RenderError> {
         let mut state = self.state.write().unwrap_or_else(PoisonError::into_inner);
         let Some(make) = state.next.take() else { return state.current.recover(error) };

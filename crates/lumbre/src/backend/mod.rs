@@ -58,6 +58,15 @@ pub trait Backend: Send + Sync {
         control: &dyn Control,
     ) -> Result<Progress, RenderError>;
 
+    /// Does what the first render of a view does once, such as making pipelines for its settings, so that renders are as fast as they
+    /// will be and can be timed.
+    ///
+    /// # Errors
+    /// If the device fails.
+    fn warm_up(&self, _view: &View) -> Result<(), RenderError> {
+        Ok(())
+    }
+
     /// Gets ready to go on after an error of [`render`](Self::render), on another device if there is one, and returns what to
     /// tell people, in one line.
     ///

@@ -105,7 +105,7 @@ impl OpenDevice {
     /// If the GPU that was asked for fails, or has too little memory for the scene.
     pub fn prepare(self, scene: CompiledScene) -> Result<Prepared, DeviceError> {
         let Kind::Gpu(gpu) = self.kind else { return on_cpu(scene, None) };
-        let first = vulkan::prepare(gpu, &scene);
+        let first = vulkan::prepare(&gpu, &scene);
         match (first, self.asked) {
             (Ok(first), asked) => {
                 let backend: Box<dyn Backend> = match asked {

@@ -1,10 +1,17 @@
 //! The GPUs, by `lumbre-vulkan`: its adapters, handles and errors in this crate's terms.
 
-use super::{Backend, Device, DeviceInfo, DeviceKind, GpuChoice, GpuOptions};
+use super::{Backend, Device, DeviceInfo, DeviceKind, Frames, GpuChoice, GpuOptions, PassTime, RenderError};
+use lumbre_core::Film;
+use lumbre_core::control::{Control, Progress};
+use lumbre_core::settings::View;
 use lumbre_scene::CompiledScene;
-use lumbre_vulkan::{Adapter, Kind, Options, Validation, VulkanError, Wanted};
+use lumbre_vulkan::{Adapter, Kind, Options, SceneOptions, Validation, VulkanBackend, VulkanError, Wanted};
+use std::ops::Range;
 
 pub(super) use lumbre_vulkan::Gpu;
+
+/// For tests: a driver that runs on the CPU counts as a GPU.
+const SOFTWARE: &str = "LUMBRE_TEST_SOFTWARE_GPU";
 
 /// The GPUs, the best first.
 ///
@@ -20,6 +27,7 @@ pub(super) fn adapters() -> Result<Vec<DeviceInfo>, String> {
 
 fn info(a: Adapter) -> DeviceInfo {
     let kind = match a.kind {
+        Kind::Cpu if std::env::var_os(SOFTWARE).is_some() => DeviceKind::OtherGpu,
         Kind::Discrete => DeviceKind::DiscreteGpu,
         Kind::Integrated => DeviceKind::IntegratedGpu,
         Kind::Virtual => DeviceKind::VirtualGpu,
@@ -64,6 +72,58 @@ pub(super) fn open(device: &Device, options: &GpuOptions) -> Result<(Gpu, Vec<St
 ///
 /// # Errors
 /// If it fails or has too little memory, in one line.
-pub(super) fn prepare(gpu: Gpu, _scene: &CompiledScene) -> Result<Box<dyn Backend>, String> {
-    Err(format!("this version cannot draw on {} yet", gpu.adapter().name))
+pub(super) fn prepare(gpu: &Gpu, scene: &CompiledScene) -> Result<Box<dyn Backend>, String> {
+    let backend = VulkanBackend::new(gpu, scene, SceneOptions::default());
+    Ok(Box::new(backend.map_err(|e| e.to_string())?))
+}
+
+impl Backend for VulkanBackend {
+    fn device(&self) -> String {
+        self.gpu().adapter().name.clone()
+    }
+
+    fn memory(&self) -> u64 {
+        self.accel().bytes + self.accel().top_bytes
+    }
+
+    fn render(
+        &self,
+        view: &View,
+        samples: Range<u32>,
+        film: &mut Film,
+        control: &dyn Control,
+    ) -> Result<Progress, RenderError> {
+        VulkanBackend::render(self, view, samples, film, control).map_err(|e| failed(self, &e))
+    }
+
+    fn warm_up(&self, view: &View) -> Result<(), RenderError> {
+        // No sample of a film of one pixel: all but the work itself.
+        Backend::render(self, view, 0..0, &mut Film::new(1, 1), &()).map(drop)
+    }
+
+    fn pass_times(&self) -> Vec<PassTime> {
+        VulkanBackend::pass_times(self).into_iter().map(pass_time).collect()
+    }
+
+    fn complaints(&self) -> Option<Vec<String>> {
+        self.gpu().validates().then(|| self.gpu().messages())
+    }
+
+    fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, RenderError> {
+        let frames = VulkanBackend::frames(self, view, size, spp, count).map_err(|e| failed(self, &e))?;
+        Ok(Frames {
+            seconds: frames.seconds,
+            progress: frames.progress,
+            path_rays: Some(frames.path_rays),
+            passes: vec![pass_time(frames.trace)],
+        })
+    }
+}
+
+fn failed(backend: &VulkanBackend, error: &VulkanError) -> RenderError {
+    RenderError { device: Backend::device(backend), reason: error.to_string() }
+}
+
+fn pass_time(t: lumbre_vulkan::PassTime) -> PassTime {
+    PassTime { name: t.name.into(), count: t.count, total_ms: t.total_ms }
 }

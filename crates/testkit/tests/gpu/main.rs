@@ -3,3 +3,4 @@
 mod common;
 mod hits;
 mod paired;
+mod textures;

@@ -41,14 +41,15 @@ struct Output {
 }
 
 /// Directions and offsets in a pixel agree to a few units in the last place of 1; places to those of their largest coordinate, here up to
-/// 100 m. A filter's knots are near each other at its rim, where the root of 1 - |2u - 1| has few digits: 2⁻¹² of a pixel and less.
+/// 100 m. A filter's knots are near each other at its rim, where the root of 1 - |2u - 1| has few digits: 2⁻¹² of a pixel and less. A step off a surface that leads through a plane of
+/// coordinates leaves what rounding leaves of the step.
 fn columns() -> Columns {
     Columns::new()
         .then("origin", 3, 1e-5, 2e-6)
         .then("dir", 3, 1e-6, 0.0)
         .exact("t_min, t_max, time", 3)
         .then("offset", 2, 2e-6, 0.0)
-        .then("left", 3, 0.0, 3e-7)
+        .then("left", 3, 2e-10, 3e-7)
 }
 
 fn camera(n: &mut Numbers) -> Camera {

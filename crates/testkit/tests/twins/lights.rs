@@ -61,8 +61,8 @@ struct Output {
     triangle: Triangle,
 }
 
-/// Directions to a few units in the last place of 1; irradiance and densities to those of their factors. On the slope of a spot the
-/// cosine's last digit counts over the width of the slope, here a hundredth and more. A triangle seen at a slant of 1/500 or more
+/// Directions to a few units in the last place of 1; irradiance and densities to those of their factors. A spot's irradiance is compared as
+/// a share of the point light's, the falloff: the cosine's last digits count over the width of its slope, here a hundredth and more. A triangle seen at a slant of 1/500 or more
 /// has a density to five digits. A direction on the rim of the sun may fall to either side: `sun_pdf` has a share of its own.
 fn columns() -> Columns {
     Columns::new()
@@ -71,7 +71,8 @@ fn columns() -> Columns {
         .then("point", 4, 0.0, 2e-6)
         .exact("found_spot", 1)
         .then("spot.wi", 3, 5e-7, 0.0)
-        .then("spot", 4, 3e-8, 2e-4)
+        .then("spot.distance", 1, 0.0, 2e-6)
+        .then("spot.falloff", 3, 5e-5, 0.0)
         .exact("directional", 7)
         .then("on_sun", 3, 1e-6, 0.0)
         .then("sun_pdf", 1, 0.0, 1e-6)
@@ -133,6 +134,13 @@ fn delta(s: Option<DeltaSample>) -> (u32, Delta) {
     (s.is_some().into(), s.map_or_else(Delta::default, of))
 }
 
+/// The irradiance of a spot as a share of that of the point light in its place, in the bands that have any.
+fn falloff(spot: Delta, point: &Delta) -> Delta {
+    let [s, p] = [spot, *point].map(|d| d.irradiance.to_array());
+    let share = [0, 1, 2].map(|i| if p[i] > 0.0 { s[i] / p[i] } else { s[i] });
+    Delta { irradiance: Rgb::from_array(share), ..spot }
+}
+
 fn twin(i: &Input) -> Output {
     let (position, p) = (Vec3::from(i.position), Vec3::from(i.p));
     let cone = Cone { axis: i.axis.into(), cos_inner: i.cos_inner, cos_outer: i.cos_outer };
@@ -144,6 +152,7 @@ fn twin(i: &Input) -> Output {
     let triangle = TriangleLight { p0: i.p0.into(), e1: i.e1.into(), e2: i.e2.into() };
     let (found_point, point) = delta(point::sample(position, i.intensity, p));
     let (found_spot, spot) = delta(spot::sample(position, i.intensity, &cone, p));
+    let spot = falloff(spot, &point);
     let on_triangle = triangle.sample(p, i.u);
     let of = |s: TriangleSample| Triangle {
         point: s.point.to_array(),
@@ -171,7 +180,8 @@ fn both(change: fn(Input) -> Input) -> Option<(Vec<Output>, Vec<Output>)> {
     let mut gpu: Vec<Output> = evaluate(kernel!("lights"), &[], &inputs)?;
     for o in &mut gpu {
         let found = |found: u32, o: Delta| if found == 1 { o } else { Delta::default() };
-        (o.point, o.spot) = (found(o.found_point, o.point), found(o.found_spot, o.spot));
+        o.point = found(o.found_point, o.point);
+        o.spot = falloff(found(o.found_spot, o.spot), &o.point);
         o.triangle = if o.found_triangle == 1 { o.triangle } else { Triangle::default() };
     }
     Some((inputs.into_iter().map(|i| twin(&change(i))).collect(), gpu))
@@ -213,7 +223,7 @@ fn other_lights_are_found() {
     })
     .expect("a device, as before");
     let differing = columns().differing(&rust, &gpu);
-    for (name, least) in [("spot", 10_000), ("sun_pdf", 10_000)] {
+    for (name, least) in [("spot.falloff", 10_000), ("sun_pdf", 10_000)] {
         let count = differing.iter().find(|d| d.0 == name).unwrap().1;
         assert!(count > least, "{name}: {differing:?}");
     }

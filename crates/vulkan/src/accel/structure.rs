@@ -10,6 +10,7 @@ use std::sync::Arc;
 pub(crate) struct Structure {
     gpu: Gpu,
     pub(crate) raw: vk::AccelerationStructureKHR,
+    /// Dropped after `raw` was discarded: things are freed in the order in which they are dropped.
     _storage: Arc<Buffer>,
     size: u64,
 }
@@ -49,10 +50,9 @@ impl Structure {
 
 impl Drop for Structure {
     fn drop(&mut self) {
-        if !self.gpu.0.hangs() {
-            // SAFETY: every submission that uses it was waited for.
-            unsafe { self.gpu.0.acceleration.destroy_acceleration_structure(self.raw, None) };
-        }
+        let raw = self.raw;
+        // SAFETY: nothing that uses it is under way.
+        self.gpu.0.discard(move |gpu| unsafe { gpu.acceleration.destroy_acceleration_structure(raw, None) });
     }
 }
 

@@ -5,8 +5,8 @@ use super::media::Solids;
 use super::slices::{Pace, Slice, Slices};
 use super::variant::SceneConstants;
 use crate::{
-    AccelReport, Buffer, Gpu, HitShaders, PipelineCache, RayPipeline, RayShaders, SceneOnGpu, SceneOptions,
-    Specialisation, Timer, Upload, VulkanError,
+    AccelReport, Buffer, Gpu, HitShaders, Kind, PipelineCache, RayPipeline, RayShaders, SceneOnGpu,
+    SceneOptions, Specialisation, Timer, Upload, VulkanError,
 };
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::Film;
@@ -94,7 +94,8 @@ impl VulkanBackend {
             gpu: gpu.clone(),
             scene: on_gpu,
             solids: Solids::new(scene),
-            constants: SceneConstants::new(scene),
+            // Mesa's CPU driver does not.
+            constants: SceneConstants::new(scene, gpu.adapter().kind != Kind::Cpu),
             tables,
             cache: PipelineCache::open(gpu),
             work: Mutex::default(),

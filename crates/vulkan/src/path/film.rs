@@ -1,7 +1,7 @@
 //! The film on the device: exact sums of its pixels, to which ray generation adds, and what else it tells.
 
 use crate::{Buffer, Commands, Gpu, Purpose, VulkanError};
-use lumbre_core::film::{Crop, Film, PixelSums};
+use lumbre_core::film::{Film, PixelSums};
 use lumbre_shaders::film::{NON_FINITE_BYTES, non_finite};
 use lumbre_shaders::view::RAY_COUNTERS;
 
@@ -101,11 +101,10 @@ impl FilmOnGpu {
         })?;
         let bytes = self.readback.read();
         let (pixels, rest) = bytes.split_at(sums as usize);
-        let part = Crop { origin: film.origin(), size: [film.width(), film.height()] };
         match bytemuck::try_cast_slice(pixels) {
-            Ok(pixels) => film.merge_sums(part, pixels),
+            Ok(pixels) => merge(film, pixels),
             // Memory of a driver that aligns it to less than the sums ask for.
-            Err(_) => film.merge_sums(part, &collected::<PixelSums>(pixels)),
+            Err(_) => merge(film, &collected::<PixelSums>(pixels)),
         }
         let words = collected::<u32>(&rest[..NON_FINITE_BYTES]);
         let (count, some) = non_finite(&words);
@@ -116,4 +115,14 @@ impl FilmOnGpu {
 
 fn collected<T: bytemuck::Pod>(bytes: &[u8]) -> Vec<T> {
     bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
+}
+
+/// Adds sums to a film, on several threads: one would take longer than the device for the samples.
+fn merge(film: &mut Film, sums: &[PixelSums]) {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(16);
+    std::thread::scope(|scope| {
+        for task in film.merge_tasks(sums, threads) {
+            scope.spawn(|| task.run());
+        }
+    });
 }

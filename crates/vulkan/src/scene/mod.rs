@@ -123,11 +123,6 @@ impl SceneOnGpu {
         self.table.address()
     }
 
-    /// Whether its textures are images; otherwise shaders filter their texels by hand (`IMAGE_TEXTURES` of variants.glsl).
-    pub fn has_images(&self) -> bool {
-        !self.textures.sampled.is_empty()
-    }
-
     /// What there is of acceleration structures and what making them took.
     pub fn accel(&self) -> &AccelReport {
         &self.accel.report

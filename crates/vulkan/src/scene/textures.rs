@@ -2,7 +2,7 @@
 
 use crate::buffer::Buffer;
 use crate::error::VulkanError;
-use crate::gpu::Gpu;
+use crate::gpu::Limits;
 use crate::image::{Image, Sampler};
 use crate::upload::Upload;
 use ash::vk;
@@ -11,7 +11,7 @@ use lumbre_scene::compiled::texture::{TextureRecord, wrap};
 use lumbre_shaders::layout::TextureTable;
 use std::collections::BTreeMap;
 
-/// What an element of the arrays of textures is: image and sampler.
+/// What an element of the arrays of textures is.
 #[derive(Clone, Copy)]
 pub(crate) struct Sampled {
     pub(crate) srgb: vk::ImageView,
@@ -24,7 +24,7 @@ pub(crate) struct Textures {
     _images: Vec<Image>,
     _samplers: Vec<Sampler>,
     _texels: Vec<Buffer>,
-    /// One for each texture; empty where shaders filter all textures by hand.
+    /// One for each texture.
     pub(crate) sampled: Vec<Sampled>,
     /// One for each texture.
     pub(crate) tables: Vec<TextureTable>,
@@ -42,10 +42,12 @@ fn texels<'a>(scene: &'a CompiledScene, &(first, width, height): &Place) -> &'a 
 }
 
 impl Textures {
-    /// Copies them to the device. Images are not made where there are more textures than shaders can choose from, or one is too large
-    /// for an image.
+    /// Copies them to the device.
+    ///
+    /// # Errors
+    /// If they are too many or too large for it, memory is out, or the device is lost.
     pub(crate) fn new(upload: &mut Upload, scene: &CompiledScene) -> Result<Self, VulkanError> {
-        let images = fit_images(upload.gpu(), scene);
+        check(&upload.gpu().0.limits, scene)?;
         let mut all = Textures {
             _images: Vec::new(),
             _samplers: Vec::new(),
@@ -53,10 +55,8 @@ impl Textures {
             sampled: Vec::new(),
             tables: Vec::new(),
         };
-        if images {
-            all.add_images(upload, scene)?;
-        }
-        all.add_tables(upload, scene, images)?;
+        all.add_images(upload, scene)?;
+        all.add_tables(upload, scene)?;
         Ok(all)
     }
 
@@ -84,14 +84,9 @@ impl Textures {
         Ok(())
     }
 
-    /// Texels of textures that decide alpha, or of all if there are no images.
-    fn add_tables(
-        &mut self,
-        upload: &mut Upload,
-        scene: &CompiledScene,
-        images: bool,
-    ) -> Result<(), VulkanError> {
-        let by_hand = if images { deciding_alpha(scene) } else { vec![true; scene.textures.len()] };
+    /// Tables of all, and texels of those that decide alpha.
+    fn add_tables(&mut self, upload: &mut Upload, scene: &CompiledScene) -> Result<(), VulkanError> {
+        let by_hand = deciding_alpha(scene);
         let mut addresses = BTreeMap::<Place, u64>::new();
         for (t, by_hand) in scene.textures.iter().zip(by_hand) {
             let at = place(t);
@@ -115,12 +110,20 @@ impl Textures {
     }
 }
 
-/// Whether the textures of a scene can be images.
-fn fit_images(gpu: &Gpu, scene: &CompiledScene) -> bool {
-    let limits = &gpu.0.limits;
+/// Whether the device takes so many textures, and such large ones.
+fn check(limits: &Limits, scene: &CompiledScene) -> Result<(), VulkanError> {
+    let refuse = |what: &str, needed, limit: u32| {
+        let (needed, limit) = (needed, u64::from(limit));
+        if needed <= limit {
+            Ok(())
+        } else {
+            Err(VulkanError::TooLarge { what: what.to_owned(), needed, limit })
+        }
+    };
     // Each is there twice: read as sRGB and as linear values.
-    let count = 2 * scene.textures.len() as u64 <= u64::from(limits.max_sampled_images);
-    count && scene.textures.iter().all(|t| t.width.max(t.height) <= limits.max_image_side)
+    refuse("textures", scene.textures.len() as u64, limits.max_sampled_images / 2)?;
+    let side = scene.textures.iter().map(|t| t.width.max(t.height)).max().unwrap_or(0);
+    refuse("the side of a texture (texels)", side.into(), limits.max_image_side)
 }
 
 /// For each texture whether the visibility of a surface depends on it.

@@ -1,6 +1,7 @@
 //! Tests that need a device.
 
 mod device;
+mod scenes;
 
 use crate::{Gpu, Options, Validation, VulkanError, Wanted};
 
