@@ -54,7 +54,11 @@ AlbedoRow albedo_row_new(float alpha) {
 // Column of a cosine among `n` with warp `w`, and the fraction beyond it.
 uint albedo_column(float mu, float w, uint n, out float t) {
     float s = sqrt(mu * (1.0 + w) / (mu + w));
-    float p = clamp(s * float(n - 1), 0.0, float(n - 1));
+    // The same as 1 - (1 - s) where s is near 1, which roots and quotients of a card may miss: there a table may fall to almost nothing
+    // in its last column, and at normal incidence it is that column that counts.
+    float rest = w * (1.0 - mu) / ((mu + w) * (1.0 + s));
+    float last = float(n - 1);
+    float p = clamp(s < 0.5 ? s * last : last - rest * last, 0.0, last);
     uint j = min(uint(p), n - 2);
     t = p - float(j);
     return j;

@@ -78,12 +78,13 @@ Spectrum sheen_eval(Sheen self_, vec3 wo, vec3 wi) {
     float exponent = sheen_exponent(self_);
     float scale = (2.0 + exponent) * (0.125 * INV_PI);
     float k = sqr(2.0 + exponent) * INV_PI / (2.0 * exponent + 5.0) - 0.25;
-    float cosine = normalize(wo + wi).z;
-    float sin2 = (1.0 - cosine) * (1.0 + cosine);
+    // sin² of the half vector from its part along the surface: 1 less a cosine would be made of a card's roundings about the mirror direction.
+    vec3 h = wo + wi;
+    float sin2 = dot(h.xy, h.xy) / dot(h, h);
     float eta_o = sqrt(0.25 + k * max((1.0 - wo.z) * (1.0 + wo.z), 0.0));
     float eta_i = sqrt(0.25 + k * max((1.0 - wi.z) * (1.0 + wi.z), 0.0));
     float shown = wo.z * eta_i + wi.z * eta_o;
-    return self_.color * (scale * pow_(max(sin2, 0.0), 0.5 * exponent) * wi.z / shown);
+    return self_.color * (scale * pow_(sin2, 0.5 * exponent) * wi.z / shown);
 }
 
 // Rate of the exponential by which heights are drawn.

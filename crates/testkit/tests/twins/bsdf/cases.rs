@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use lumbre_core::bsdf::{
     BsdfParams, CoatParams, DiffuseSampling, FilmParams, GlossParams, SheenParams, TransportMode,
 };
-use lumbre_core::math::Vec3;
+use lumbre_core::math::{ONE_MINUS_EPSILON, Vec3};
 use lumbre_core::{Spectrum, bsdf::Bsdf};
 use lumbre_testkit::bsdf_rows::{self, Row};
 
@@ -157,8 +157,17 @@ pub(super) fn cases() -> Vec<Case> {
 
 /// A question about a surface.
 fn case(family: &'static str, params: BsdfParams, n: &mut Numbers) -> Case {
-    let wo = from_above(n);
+    let wo = match (n.below(8), params.eta < 1.0) {
+        (0, true) => at_critical_angle(params.eta, n),
+        _ => from_above(n),
+    };
     let (u_lobe, u) = (n.unit(), n.pair());
+    // Seldom the ends: there they meet choices of a probability that rounding decides.
+    let u_lobe = match n.below(256) {
+        0 => 0.0,
+        1 => ONE_MINUS_EPSILON,
+        _ => u_lobe,
+    };
     let mode = n.one_of(&[TransportMode::Radiance, TransportMode::Radiance, TransportMode::Importance]);
     let (other_lobe, other) = (n.unit(), n.pair());
     // Where the surface itself sends light, and anywhere; now and then straight at the horizon.
@@ -171,6 +180,15 @@ fn case(family: &'static str, params: BsdfParams, n: &mut Numbers) -> Case {
         _ => drawn.unwrap_or(anywhere),
     };
     Case { family, params, wo, wi, u_lobe, u, mode }
+}
+
+/// A direction about where total reflection begins.
+fn at_critical_angle(eta: f32, n: &mut Numbers) -> Vec3 {
+    let beside = n.scale(1e-7, 1e-2) * n.one_of(&[-1.0, 1.0]);
+    let z = ((1.0 - eta * eta).sqrt() * (1.0 + beside)).min(1.0);
+    let phi = n.between(0.0, std::f32::consts::TAU);
+    let sin = (1.0 - z * z).sqrt();
+    Vec3::new(sin * phi.cos(), sin * phi.sin(), z)
 }
 
 /// A direction above the surface: any, grazing down to the least cosine that scatters, or the normal itself.
