@@ -37,9 +37,14 @@ impl Picture {
         fits(self.bytes(), self.bytes(), &self.name(), limit)
     }
 
-    /// The same for all that there will be once the scene, which is in memory by now, is built.
-    pub(crate) fn check_with(&self, scene: &CompiledScene, limit: Option<u64>) -> Result<(), Failure> {
-        let building = triangles(scene) * BUILD_BYTES_PER_TRIANGLE;
+    /// The same for all that there will be once the scene, which is in memory by now, is built; `on_gpu`: not in this memory.
+    pub(crate) fn check_with(
+        &self,
+        scene: &CompiledScene,
+        on_gpu: bool,
+        limit: Option<u64>,
+    ) -> Result<(), Failure> {
+        let building = if on_gpu { 0 } else { triangles(scene) * BUILD_BYTES_PER_TRIANGLE };
         let what = format!(
             "{} with this scene ({} of it, {} to build it)",
             self.name(),
@@ -137,11 +142,20 @@ mod tests {
 
     #[test]
     fn the_scene_counts_against_the_limit() {
-        let scene = lumbre::compile(&lumbre::scene::Scene::default()).unwrap().scene;
+        use lumbre::core::math::Vec3;
+        use lumbre::scene::{Mesh, Node, Primitive, Scene};
+        let mut scene = Scene::default();
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        let triangle = Primitive { positions, indices: vec![0, 1, 2], ..Primitive::default() };
+        let mesh = Some(scene.add_mesh(Mesh { name: "one".into(), primitives: vec![triangle] }));
+        scene.add_root(Node { mesh, ..Node::default() });
+        let scene = lumbre::compile(&scene).unwrap().scene;
+        assert_eq!(triangles(&scene), 1);
         let picture = Picture { size: [16, 16], output_per_pixel: 0, films: 1 };
         let all = picture.bytes() + scene.bytes() + triangles(&scene) * BUILD_BYTES_PER_TRIANGLE;
-        assert!(picture.check_with(&scene, Some(all)).is_ok());
-        let e = picture.check_with(&scene, Some(all - 1)).unwrap_err();
+        assert!(picture.check_with(&scene, false, Some(all)).is_ok());
+        let e = picture.check_with(&scene, false, Some(all - 1)).unwrap_err();
+        assert!(picture.check_with(&scene, true, Some(all - 1)).is_ok(), "a GPU builds in its own memory");
         assert!(e.message.contains("with this scene"), "{}", e.message);
     }
 

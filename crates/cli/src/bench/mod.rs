@@ -60,8 +60,10 @@ fn bring(args: &BenchArgs, place: &Place) -> Result<Box<dyn Backend>, Failure> {
     device::prepare(device::open(&args.device)?.alone(), place.compiled.clone())
 }
 
-/// A whole picture until the targets are met, its film read back after each pass.
+/// A whole picture until the targets are met, its film read back after each pass. What a device does once for the settings is done
+/// before.
 fn render(backend: &dyn Backend, view: &View, size: [u32; 2], targets: Targets) -> Result<Outcome, Failure> {
+    backend.warm_up(view)?;
     let mut film = Film::new(size[0], size[1]);
     lumbre::render(backend, view, targets, &mut film, &()).map_err(|failed| failed.error.into())
 }

@@ -114,7 +114,6 @@ const FRAMES: [Column; 7] = [
 ];
 
 fn frame_row(spp: u32, length: f64, f: &Figures) -> Vec<Cell> {
-    let passes: Vec<String> = f.passes.iter().map(|(name, ms)| format!("{name} {ms:.3}")).collect();
     vec![
         Cell::Whole(spp.into()),
         Cell::Number(f.fps),
@@ -122,7 +121,7 @@ fn frame_row(spp: u32, length: f64, f: &Figures) -> Vec<Cell> {
         Cell::Number(f.mrays_per_second),
         Cell::Number(length),
         Cell::Whole(f.frames as u64),
-        if passes.is_empty() { Cell::None } else { Cell::Text(passes.join(", ")) },
+        Cell::Passes(f.passes.clone()),
     ]
 }
 

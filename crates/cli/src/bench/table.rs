@@ -8,6 +8,8 @@ pub(super) enum Cell {
     Text(String),
     Whole(u64),
     Number(f64),
+    /// Milliseconds of passes, by name.
+    Passes(Vec<(String, f64)>),
     /// There is none.
     None,
 }
@@ -24,6 +26,11 @@ impl Cell {
             Cell::Text(text) => text.clone(),
             Cell::Whole(n) => n.to_string(),
             Cell::Number(x) => three_digits(*x),
+            Cell::Passes(passes) => {
+                let passes: Vec<String> =
+                    passes.iter().map(|(name, ms)| format!("{name} {}", three_digits(*ms))).collect();
+                if passes.is_empty() { "-".into() } else { passes.join(", ") }
+            }
             Cell::None => "-".into(),
         }
     }
@@ -33,6 +40,10 @@ impl Cell {
             Cell::Text(text) => json!(text),
             Cell::Whole(n) => json!(n),
             Cell::Number(x) => json!(x),
+            Cell::Passes(passes) if passes.is_empty() => Value::Null,
+            Cell::Passes(passes) => {
+                passes.iter().map(|(name, ms)| (name.clone(), json!(ms))).collect::<Map<_, _>>().into()
+            }
             Cell::None => Value::Null,
         }
     }
@@ -172,6 +183,15 @@ mod tests {
         ] {
             assert_eq!(three_digits(x), text);
         }
+    }
+
+    #[test]
+    fn passes_have_their_names() {
+        let none = Cell::Passes(Vec::new());
+        assert_eq!((none.text(), none.json()), ("-".into(), Value::Null));
+        let two = Cell::Passes(vec![("trace".into(), 3.25), ("tone".into(), 0.125)]);
+        assert_eq!(two.text(), "trace 3.25, tone 0.125");
+        assert_eq!(two.json(), json!({ "trace": 3.25, "tone": 0.125 }));
     }
 
     #[test]

@@ -29,12 +29,15 @@ Examples:
       lit by a photograph
   lumbre render scene.glb -o view.png --look-from -3,1.6,4 --look-at 0,1,0 --fov 35
       from elsewhere
+  lumbre render scene.glb --device gpu
+      on the best GPU, or an error; without the flag on the CPU where there is none
   lumbre render scene.glb --pixel 310,204 --sample 7
       one path, vertex by vertex, instead of a picture
 
 Exit codes:
-  0 done, 2 wrong usage, 65 bad data in a file, 66 a file cannot be opened, 70 a bug,
-  71 too little memory, 74 cannot write, 75 interrupted with the picture so far written,
+  0 done, 2 wrong usage, 65 bad data in a file, 66 a file cannot be opened, 69 the GPU that was
+  asked for cannot be had or failed (the picture so far is written), 70 a bug, 71 too little memory,
+  74 cannot write, 75 interrupted with the picture so far written,
   130 interrupted with nothing written";
 
 /// Flags of `lumbre render`.

@@ -46,7 +46,7 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         let Opened { compiled, camera, size, sky_added, load_seconds } = scene::open(args, &camera)?;
         let part = args.camera.part(size)?;
         let scene_bytes = compiled.bytes();
-        picture(args, &outputs, part).check_with(&compiled, args.run.memory_limit)?;
+        picture(args, &outputs, part).check_with(&compiled, device.is_gpu(), args.run.memory_limit)?;
         let view = View { camera, settings: args.settings(), frame: 0 };
         let scene = args.output.keeps_sums().then(|| SceneHash::new(&compiled));
         let mut job = Job { args, outputs, view, size, part, scene, sky_added, began };
