@@ -56,3 +56,12 @@ pub(crate) fn surely<T>(
         }
     }
 }
+
+/// Says what a validation layer found, if one was asked for.
+pub(crate) fn validation(backend: &dyn Backend) {
+    let Some(complaints) = backend.complaints() else { return };
+    complaints.iter().for_each(|c| console::warning(format_args!("validation: {}", c.replace('\n', " "))));
+    if complaints.is_empty() {
+        console::note("validation: no complaints");
+    }
+}

@@ -81,6 +81,8 @@ pub struct TextureAnswer {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub struct Push {
+    /// Address of the tables of numbers; only looking textures up reads them.
+    pub tables: u64,
     /// Address of the [`crate::layout::SceneTable`].
     pub scene: u64,
     /// Address of the rays.

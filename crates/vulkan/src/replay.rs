@@ -10,11 +10,14 @@ use crate::timer::Timer;
 use crate::upload::Upload;
 use bytemuck::Pod;
 use lumbre_shaders::replay::{self, Push, ReplayHit, ReplayRay, TextureAnswer, TextureQuery};
+use lumbre_shaders::tables::tables;
 
 /// A pipeline that replays rays through a scene.
 pub struct Replay<'a> {
     scene: &'a SceneOnGpu,
     pipeline: RayPipeline,
+    /// Tables of numbers, if the shaders read them.
+    tables: Option<Buffer>,
 }
 
 impl<'a> Replay<'a> {
@@ -23,13 +26,13 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// If the driver refuses the pipeline, or memory is out.
     pub fn new(scene: &'a SceneOnGpu, all_pass: bool, cache: &PipelineCache) -> Result<Self, VulkanError> {
-        Self::with(scene, replay::RGEN, all_pass, cache)
+        Self::with(scene, replay::RGEN, &Specialisation::new().bool(0, all_pass), cache)
     }
 
     fn with(
         scene: &'a SceneOnGpu,
         raygen: &[u8],
-        all_pass: bool,
+        constants: &Specialisation,
         cache: &PipelineCache,
     ) -> Result<Self, VulkanError> {
         let closest = Some(replay::RCHIT);
@@ -44,9 +47,8 @@ impl<'a> Replay<'a> {
                 [HitShaders { closest, any }, HitShaders { closest: None, any }],
             ],
         };
-        let constants = Specialisation::new().bool(0, all_pass);
-        let pipeline = RayPipeline::new(scene, &shaders, &constants, size_of::<Push>() as u32, cache)?;
-        Ok(Replay { scene, pipeline })
+        let pipeline = RayPipeline::new(scene, &shaders, constants, size_of::<Push>() as u32, cache)?;
+        Ok(Replay { scene, pipeline, tables: None })
     }
 
     /// What each ray hits, and how long the device took, milliseconds.
@@ -74,6 +76,7 @@ impl<'a> Replay<'a> {
         let output = Buffer::new(gpu, "hits", size, Purpose::Data)?;
         let result = Buffer::new(gpu, "hits on the host", size, Purpose::Readback)?;
         let push = Push {
+            tables: self.tables.as_ref().map_or(0, Buffer::address),
             scene: self.scene.address(),
             rays: input.address(),
             hits: output.address(),
@@ -95,15 +98,22 @@ impl<'a> Replay<'a> {
 }
 
 impl SceneOnGpu {
-    /// What textures hold at some places: for tests.
+    /// What textures hold at some places, their colours decoded by the device or by a table (`DEVICE_SRGB` of variants.glsl): for tests.
     ///
     /// # Errors
     /// If the driver refuses the pipeline, memory is out, or the device is lost.
     pub fn look_up(
         &self,
         places: &[TextureQuery],
-        cache: &PipelineCache,
+        by_device: bool,
     ) -> Result<Vec<TextureAnswer>, VulkanError> {
-        Ok(Replay::with(self, replay::TEXTURE_RGEN, false, cache)?.answers(places)?.0)
+        // Its id in variants.glsl.
+        let constants = Specialisation::new().bool(63, by_device);
+        let cache = PipelineCache::open_in(self.gpu(), None);
+        let mut replay = Replay::with(self, replay::TEXTURE_RGEN, &constants, &cache)?;
+        let mut upload = Upload::new(self.gpu());
+        replay.tables = Some(Buffer::with_content(&mut upload, "tables of numbers", &tables())?);
+        upload.finish()?;
+        Ok(replay.answers(places)?.0)
     }
 }

@@ -4,10 +4,10 @@ use super::measure::{self, Figures, Plan};
 use super::place::{Eye, Place, scenes};
 use super::table::{Cell, Column, Table};
 use super::{bring, settings};
-use crate::console;
 use crate::exit::Failure;
 use crate::flags::bench::BenchArgs;
 use crate::flags::values::{Depth, Size};
+use crate::{console, device};
 use lumbre::Backend;
 use lumbre::core::settings::{RenderSettings, View};
 use lumbre::cpu::CpuBackend;
@@ -71,6 +71,7 @@ impl Sweep {
                     rows.extend(each(&spot)?.into_iter().map(|row| spot.row(row)));
                 }
             }
+            device::validation(&*backend);
         }
         let columns = PLACES.iter().chain(columns).copied().collect();
         Ok(Table { columns, rows, settings: settings(args, &device) })

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub(crate) const EXAMPLES: &str = "\
 A part is an .exr by `lumbre render --first-sample N` or `--keep-sums`. All flags that decide
 the picture must be the same for all parts, but --spp may differ; machines, threads and the
-order of the parts do not matter. The parts must follow on one another without gap or overlap.
+order of the parts do not matter (a GPU rounds in its own way: the last bits). The parts must follow on one another without gap or overlap.
 
 Examples:
   lumbre render scene.glb --first-sample 0 --spp 256 -o a.exr

@@ -9,7 +9,7 @@ use crate::interrupt::{self, Phase};
 use crate::outputs::{Developed, Outputs, PartOf};
 use crate::progress::stats::{Memory, Stats};
 use crate::progress::{Finish, Reporter, Start};
-use crate::{console, memory};
+use crate::{console, device, memory};
 use lumbre::core::control::Control;
 use lumbre::core::film::Crop;
 use lumbre::fingerprint::{Fingerprint, SceneHash};
@@ -73,7 +73,7 @@ impl Job<'_> {
         if early && outcome.progress.samples == 0 {
             return Err(nothing(failure));
         }
-        report::validation(prepared.backend);
+        device::validation(prepared.backend);
         let saturated = report::film(&film);
         report::black(&film, &self.args.scene);
         report::ended(&outcome, &targets);

@@ -3,7 +3,7 @@
 use crate::console;
 use crate::progress::plain::{duration, error};
 use lumbre::core::Film;
-use lumbre::{Backend, Ended, Outcome, Targets};
+use lumbre::{Ended, Outcome, Targets};
 use std::env;
 use std::ffi::OsString;
 use std::path::Path;
@@ -31,15 +31,6 @@ pub(super) fn ended(outcome: &Outcome, targets: &Targets) {
     };
     let error = error(outcome.error);
     console::note(format_args!("{why}{} samples per pixel, estimated error {error}", outcome.spp));
-}
-
-/// Says what a validation layer found, if one was asked for.
-pub(super) fn validation(backend: &dyn Backend) {
-    let Some(complaints) = backend.complaints() else { return };
-    complaints.iter().for_each(|c| console::warning(format_args!("validation: {}", c.replace('\n', " "))));
-    if complaints.is_empty() {
-        console::note("validation: no complaints");
-    }
 }
 
 /// Reports on a film; returns how many sums ran out of range.

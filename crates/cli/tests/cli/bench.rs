@@ -114,6 +114,18 @@ fn cameras_are_those_of_the_scene_or_of_the_flags() {
         .says("exterior, interior");
 }
 
+/// Without a scene: the pool, from the folder of the sources; Sponza only where it is found.
+#[test]
+fn the_pool_is_what_is_measured_by_default() {
+    let mut c = command();
+    c.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).env("LUMBRE_SCENES", "/nonexistent");
+    c.args(["bench", "path", "--sizes", "8x4", "--frames", "1", "--warm-up", "1", "--depths", "1", "--json"]);
+    let run = Run::from(c.output().unwrap()).exits(0).says("no Sponza: /nonexistent/sponza/");
+    let scenes: Vec<_> =
+        run.last_json()["rows"].as_array().unwrap().iter().map(|r| r["scene"].clone()).collect();
+    assert_eq!(scenes, ["pool.glb", "pool.glb"]);
+}
+
 #[test]
 fn what_cannot_be_measured_is_said() {
     let dir = folder();

@@ -103,7 +103,7 @@ fn a_scene_that_does_not_fit_is_said_with_what_there_is() {
     if !gpu() {
         return;
     }
-    let (dir, little) = (folder(), ("LUMBRE_TEST_GPU_MEMORY", "4096"));
+    let (dir, little) = (folder(), ("LUMBRE_TEST_GPU_MEMORY", "1"));
     let run = draw(dir.path(), "a.exr", "--spp 1 --device gpu", &[little]).exits(69);
     let error = run.stderr.lines().find(|l| l.starts_with("error: ")).unwrap();
     assert!(error.contains("not enough GPU memory") && error.contains("available"), "{error}");

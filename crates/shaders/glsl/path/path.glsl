@@ -84,8 +84,8 @@ void path_take(inout Path path, Wavelength wavelength) {
 void path_begin_inside(inout Path path) {
     path.media = push.view.media;
     bool disperses = false;
-    for (uint i = 0u; i < 4u; ++i) {
-        uint material = path.media.material[i];
+    for (uint i = 0u; HAS_DISPERSION && i < 4u; ++i) {
+        uint material = push.view.media.material[i];
         disperses = disperses || (material != VACUUM && (MATERIAL(material).flags & FLAG_DISPERSION) != 0u);
     }
     if (HAS_DISPERSION && disperses) {

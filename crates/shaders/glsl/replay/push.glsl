@@ -5,6 +5,7 @@
 #ifndef REPLAY_PUSH_GLSL
 #define REPLAY_PUSH_GLSL
 
+#include "tables.glsl"
 #include "scene/layout.glsl"
 
 // Values of ReplayRay.kind.
@@ -36,6 +37,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Re
 };
 
 layout(push_constant, scalar) uniform Push {
+    Tables tables;
     SceneTable scene;
     ReplayRays rays;
     ReplayHits hits;

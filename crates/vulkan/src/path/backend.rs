@@ -1,12 +1,13 @@
 //! A scene on a GPU, rendered into films. Twin of the loop over tiles: `cpu/src/backend.rs`.
 
+use super::code::Code;
 use super::film::{CounterReadback, FilmOnGpu};
 use super::media::Solids;
 use super::slices::{Pace, Slice, Slices};
 use super::variant::SceneConstants;
 use crate::{
-    AccelReport, Buffer, Gpu, HitShaders, Kind, PipelineCache, RayPipeline, RayShaders, SceneOnGpu,
-    SceneOptions, Specialisation, Timer, Upload, VulkanError,
+    AccelReport, Buffer, Gpu, PipelineCache, RayPipeline, SceneOnGpu, SceneOptions, Specialisation, Timer,
+    Upload, VulkanError,
 };
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::Film;
@@ -34,12 +35,28 @@ pub struct VulkanBackend {
 }
 
 /// What renders leave for the next.
-#[derive(Default)]
 struct Work {
+    code: Code,
+    #[cfg(feature = "shader-reload")]
+    watched: super::code::Watched,
     pipelines: Vec<(Specialisation, Arc<RayPipeline>)>,
     film: Option<FilmOnGpu>,
     pace: Pace,
     trace: PassTime,
+}
+
+impl Work {
+    fn new() -> Self {
+        Work {
+            code: Code::embedded(),
+            #[cfg(feature = "shader-reload")]
+            watched: super::code::Watched::default(),
+            pipelines: Vec::new(),
+            film: None,
+            pace: Pace::default(),
+            trace: PassTime::trace(),
+        }
+    }
 }
 
 /// Time that the GPU spent on one of its passes, by its own clock.
@@ -94,11 +111,10 @@ impl VulkanBackend {
             gpu: gpu.clone(),
             scene: on_gpu,
             solids: Solids::new(scene),
-            // Mesa's CPU driver does not.
-            constants: SceneConstants::new(scene, gpu.adapter().kind != Kind::Cpu),
+            constants: SceneConstants::new(scene),
             tables,
             cache: PipelineCache::open(gpu),
-            work: Mutex::default(),
+            work: Mutex::new(Work::new()),
         })
     }
 
@@ -233,7 +249,6 @@ impl VulkanBackend {
             work.film = None;
             work.film = Some(FilmOnGpu::new(&self.gpu, pixels)?);
         }
-        work.trace.name = PassTime::trace().name;
         let on_gpu = work.film.as_ref().expect("made above");
         let table = self.view_table(view, film, on_gpu);
         let mut upload = Upload::new(&self.gpu);
@@ -278,12 +293,18 @@ impl VulkanBackend {
 
     /// The pipeline for these settings, made if there is none yet.
     fn pipeline(&self, work: &mut Work, settings: &RenderSettings) -> Result<Arc<RayPipeline>, VulkanError> {
+        #[cfg(feature = "shader-reload")]
+        if let Some(code) = work.watched.changed() {
+            work.code = code;
+            work.pipelines.clear();
+        }
         let constants = self.constants.with(settings);
         if let Some((_, pipeline)) = work.pipelines.iter().find(|(c, _)| *c == constants) {
             return Ok(pipeline.clone());
         }
         let push = size_of::<Push>() as u32;
-        let pipeline = Arc::new(RayPipeline::new(&self.scene, &SHADERS, &constants, push, &self.cache)?);
+        let pipeline =
+            Arc::new(RayPipeline::new(&self.scene, &work.code.shaders(), &constants, push, &self.cache)?);
         self.cache.save();
         work.pipelines.truncate(PIPELINES - 1);
         work.pipelines.insert(0, (constants, pipeline.clone()));
@@ -301,18 +322,3 @@ impl PassTime {
         self.total_ms += ms;
     }
 }
-
-/// The shaders, class by class as `HitClass` has them: opaque surfaces ask nothing; transmissive ones are asked by shadow rays, those that
-/// are there only in part by all.
-const SHADERS: RayShaders<'static> = {
-    const NOTHING: HitShaders<'static> = HitShaders { closest: None, any: None };
-    const CLOSEST: HitShaders<'static> = HitShaders { closest: Some(shaders::RADIANCE_RCHIT), any: None };
-    const COVERED: HitShaders<'static> =
-        HitShaders { closest: Some(shaders::RADIANCE_RCHIT), any: Some(shaders::RADIANCE_RAHIT) };
-    const SHADOW: HitShaders<'static> = HitShaders { closest: None, any: Some(shaders::SHADOW_RAHIT) };
-    RayShaders {
-        raygen: shaders::PATH_RGEN,
-        miss: [shaders::RADIANCE_RMISS, shaders::SHADOW_RMISS],
-        hits: [[CLOSEST, NOTHING], [CLOSEST, SHADOW], [COVERED, SHADOW]],
-    }
-};

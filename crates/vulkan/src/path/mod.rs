@@ -1,6 +1,7 @@
 //! The path tracer: a scene on a GPU, rendered into films.
 
 mod backend;
+mod code;
 mod film;
 mod media;
 mod slices;

@@ -15,8 +15,8 @@ use lumbre_scene::compiled::material::{LobesRecord, MaterialRecord, TextureUse, 
 pub(super) struct SceneConstants(Specialisation);
 
 impl SceneConstants {
-    /// Looks the scene over. `device_srgb`: the device decodes the sRGB curve of textures well.
-    pub(super) fn new(scene: &CompiledScene, device_srgb: bool) -> Self {
+    /// Looks the scene over.
+    pub(super) fn new(scene: &CompiledScene) -> Self {
         let constants = light_constants(Specialisation::new(), scene);
         let constants = material_constants(constants, scene);
         let any = |has: fn(&LobesRecord) -> bool| scene.lobes.iter().any(has);
@@ -27,8 +27,7 @@ impl SceneConstants {
             .bool(18, any(|l| l.anisotropy > 0.0))
             .bool(19, any(|l| l.diffuse_roughness > 0.0))
             .bool(20, any(|l| l.diffuse_transmission > 0.0))
-            .bool(61, !scene.lobes.is_empty())
-            .bool(63, device_srgb);
+            .bool(61, !scene.lobes.is_empty());
         SceneConstants(constants)
     }
 

@@ -56,6 +56,27 @@ fn nothing_leaks() {
     silent(&gpu);
 }
 
+/// Ten thousand submissions, two under way at a time, take what two take.
+#[test]
+fn submissions_do_not_add_up() {
+    let Some(gpu) = gpu() else { return };
+    let buffer = Buffer::new(&gpu, "filled", 64, Purpose::Data).unwrap();
+    let before = gpu.memory();
+    let mut last = None;
+    for word in 0..10_000 {
+        let pending = gpu.submit("filling", |c| {
+            c.fill(&buffer, word);
+            Ok(())
+        });
+        drop(last.replace(pending.unwrap()));
+    }
+    drop(last);
+    assert_eq!(crate::gpu::lock(&gpu.0.idle).len(), 2);
+    let after = gpu.memory();
+    assert_eq!((after.pieces, after.reserved), (before.pieces, before.reserved));
+    silent(&gpu);
+}
+
 #[test]
 fn too_much_is_an_error_with_numbers() {
     let Some(gpu) = gpu() else { return };

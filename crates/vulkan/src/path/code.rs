@@ -1,0 +1,92 @@
+//! The SPIR-V of the path tracer: that of `lumbre-shaders`; with the feature `shader-reload` that of a folder, read again when it changes.
+//!
+//! For those who change shaders: `LUMBRE_SHADERS=crates/shaders/spirv` names the folder, `cargo xtask shaders` writes it, and the next render
+//! uses it, in a program that runs on.
+
+use crate::{HitShaders, RayShaders};
+use lumbre_shaders as shaders;
+
+/// SPIR-V of each stage.
+pub(super) struct Code {
+    path_rgen: Stage,
+    radiance_rchit: Stage,
+    radiance_rahit: Stage,
+    radiance_rmiss: Stage,
+    shadow_rahit: Stage,
+    shadow_rmiss: Stage,
+}
+
+type Stage = std::borrow::Cow<'static, [u8]>;
+
+impl Code {
+    /// That of `lumbre-shaders`.
+    pub(super) fn embedded() -> Self {
+        Code {
+            path_rgen: shaders::PATH_RGEN.into(),
+            radiance_rchit: shaders::RADIANCE_RCHIT.into(),
+            radiance_rahit: shaders::RADIANCE_RAHIT.into(),
+            radiance_rmiss: shaders::RADIANCE_RMISS.into(),
+            shadow_rahit: shaders::SHADOW_RAHIT.into(),
+            shadow_rmiss: shaders::SHADOW_RMISS.into(),
+        }
+    }
+
+    /// Class by class as `HitClass` has them: opaque surfaces ask nothing; transmissive ones are asked by shadow rays, those that are there
+    /// only in part by all.
+    pub(super) fn shaders(&self) -> RayShaders<'_> {
+        let nothing = HitShaders { closest: None, any: None };
+        let closest = HitShaders { closest: Some(&self.radiance_rchit), any: None };
+        let covered = HitShaders { any: Some(&self.radiance_rahit), ..closest };
+        let shadow = HitShaders { closest: None, any: Some(&self.shadow_rahit) };
+        RayShaders {
+            raygen: &self.path_rgen,
+            miss: [&self.radiance_rmiss, &self.shadow_rmiss],
+            hits: [[closest, nothing], [closest, shadow], [covered, shadow]],
+        }
+    }
+}
+
+#[cfg(feature = "shader-reload")]
+pub(super) use reload::Watched;
+
+#[cfg(feature = "shader-reload")]
+mod reload {
+    use super::Code;
+    use std::path::{Path, PathBuf};
+    use std::time::SystemTime;
+
+    /// The folder that `LUMBRE_SHADERS` names.
+    #[derive(Default)]
+    pub(in crate::path) struct Watched {
+        /// When the newest of its files was written, as of the last look.
+        seen: Option<SystemTime>,
+    }
+
+    impl Watched {
+        /// The code of the folder where it has changed since the last look; `None` where not, or where it cannot be read (a compiler is
+        /// writing it).
+        pub(in crate::path) fn changed(&mut self) -> Option<Code> {
+            let folder = PathBuf::from(std::env::var_os("LUMBRE_SHADERS")?).join("path");
+            let files = std::fs::read_dir(&folder).ok()?;
+            let newest = files.filter_map(|f| f.ok()?.metadata().ok()?.modified().ok()).max()?;
+            if self.seen == Some(newest) {
+                return None;
+            }
+            let code = read(&folder).ok()?;
+            self.seen = Some(newest);
+            Some(code)
+        }
+    }
+
+    fn read(folder: &Path) -> std::io::Result<Code> {
+        let stage = |name: &str| std::fs::read(folder.join(format!("{name}.spv"))).map(Into::into);
+        Ok(Code {
+            path_rgen: stage("path.rgen")?,
+            radiance_rchit: stage("radiance.rchit")?,
+            radiance_rahit: stage("radiance.rahit")?,
+            radiance_rmiss: stage("radiance.rmiss")?,
+            shadow_rahit: stage("shadow.rahit")?,
+            shadow_rmiss: stage("shadow.rmiss")?,
+        })
+    }
+}
