@@ -5,7 +5,7 @@ use crate::medium::MediumStackRecord;
 use bytemuck::{Pod, Zeroable};
 
 /// Lists of paths.
-pub const QUEUES: usize = 7;
+pub const QUEUES: usize = 9;
 /// Numbers of four floats that a path takes: without solids, and with them.
 pub const STATE_QUADS: [u64; 2] = [18, 24];
 /// Side of the blocks in which pixels are taken.
@@ -15,12 +15,12 @@ pub const BLOCK: [u32; 2] = [8, 4];
 pub mod queue {
     /// Paths under way; and 1: one is read while the other is written.
     pub const PATHS: u32 = 0;
-    /// Shadow rays to the far lights; and 3: to the near ones.
+    /// Shadow rays to the far lights and to the near ones, of paths of either list: four lists.
     pub const SHADOW: u32 = 2;
-    /// Shadow rays that meet what lets light through; and 5.
-    pub const GLASS: u32 = 4;
+    /// Shadow rays that meet what lets light through, to far and to near lights.
+    pub const GLASS: u32 = 6;
     /// Paths that meet shadow catchers.
-    pub const CATCHERS: u32 = 6;
+    pub const CATCHERS: u32 = 8;
 }
 
 /// A list of paths: its length, as an indirect launch of one ray each (`VkTraceRaysIndirectCommandKHR`).

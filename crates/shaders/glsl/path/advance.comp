@@ -12,11 +12,13 @@ void main() {
     uint paths = heads.at[QUEUE_PATHS + push.parity].count;
     heads.groups[0] = (paths + 63u) / 64u;
     heads.path_rays += paths;
-    // The shadow rays of the pass before.
-    heads.shadow_rays += heads.at[QUEUE_SHADOW].count + heads.at[QUEUE_SHADOW + 1u].count;
-    for (uint queue = 0u; queue < QUEUES; ++queue) {
-        if (queue != QUEUE_PATHS + push.parity) {
-            heads.at[queue].count = 0u;
-        }
-    }
+    // The shadow rays of the step before, which are traced beside the paths of this one.
+    uint before = 1u - push.parity;
+    heads.shadow_rays += heads.at[queue_shadow(before, 0u)].count + heads.at[queue_shadow(before, 1u)].count;
+    heads.at[QUEUE_PATHS + before].count = 0u;
+    heads.at[queue_shadow(push.parity, 0u)].count = 0u;
+    heads.at[queue_shadow(push.parity, 1u)].count = 0u;
+    heads.at[QUEUE_GLASS].count = 0u;
+    heads.at[QUEUE_GLASS + 1u].count = 0u;
+    heads.at[QUEUE_CATCHERS].count = 0u;
 }

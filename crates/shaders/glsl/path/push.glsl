@@ -27,10 +27,10 @@ struct QueueHead {
 
 // Lists of paths, by what is to be done with them next.
 const uint QUEUE_PATHS = 0u; // and 1: one is read while the other is written
-const uint QUEUE_SHADOW = 2u; // and 3: a list for each group of lights
-const uint QUEUE_GLASS = 4u; // and 5: shadow rays that meet what lets light through
-const uint QUEUE_CATCHERS = 6u;
-const uint QUEUES = 7u;
+const uint QUEUE_SHADOW = 2u; // to 5: a list for each group of lights, for paths of either list
+const uint QUEUE_GLASS = 6u; // and 7: shadow rays that meet what lets light through, for each group
+const uint QUEUE_CATCHERS = 8u;
+const uint QUEUES = 9u;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer QueueHeads {
     QueueHead at[QUEUES];
@@ -88,6 +88,11 @@ layout(push_constant, scalar) uniform Push {
     // Which group of lights shadow rays go to.
     uint group;
 } push;
+
+// The list of shadow rays to a group of lights, of the paths that are read (`parity`), or of those before.
+uint queue_shadow(uint parity, uint group) {
+    return QUEUE_SHADOW + 2u * parity + group;
+}
 
 #define MATERIAL(id) push.scene.materials.at[id]
 

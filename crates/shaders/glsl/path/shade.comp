@@ -77,6 +77,8 @@ void main() {
     if (id != NONE) {
         Path path = path_load(id);
         Scattered result = step_path(id, path);
+        path.asked_far = result.has_far;
+        path.asked_near = result.has_near;
         path_store(id, path);
         joins = bvec3(result.alive, result.has_far, result.has_near);
     }
@@ -88,7 +90,7 @@ void main() {
         }
     }
     barrier();
-    uint lists[3] = uint[3](QUEUE_PATHS + 1u - push.parity, QUEUE_SHADOW + GROUP_FAR, QUEUE_SHADOW + GROUP_NEAR);
+    uint lists[3] = uint[3](QUEUE_PATHS + 1u - push.parity, queue_shadow(push.parity, GROUP_FAR), queue_shadow(push.parity, GROUP_NEAR));
     QueueHeads heads = push.view.heads;
     if (lane < 3u && members[lane] > 0u) {
         begins[lane] = atomicAdd(heads.at[lists[lane]].count, members[lane]);

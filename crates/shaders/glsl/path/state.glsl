@@ -40,6 +40,9 @@ struct Path {
     float alpha;
     // Scattering events so far.
     uint depth;
+    // Groups of lights from which shadow rays of the last vertex bring something.
+    bool asked_far;
+    bool asked_near;
 };
 
 // A shadow ray that waits to be traced, with what it will bring.
@@ -149,7 +152,7 @@ void path_store(uint id, Path path) {
     Quads state = push.view.state;
     uint n = push.view.capacity;
     uint bits = (path.through_solid ? 1u : 0u) | (path.seen_by_camera ? 2u : 0u) | (path.straight ? 4u : 0u)
-        | (path.caught << 3) | (path.depth << 10);
+        | (path.caught << 3) | (path.asked_far ? 1024u : 0u) | (path.asked_near ? 2048u : 0u) | (path.depth << 12);
     state.at[STATE_RAY * n + id] = vec4(path.ray.origin, 0.0);
     state.at[STATE_DIRECTION * n + id] = vec4(path.ray.dir, path.arrival_pdf);
     state.at[STATE_BETA * n + id] = vec4(path.beta, path.travelled);
@@ -159,6 +162,18 @@ void path_store(uint id, Path path) {
     if (HAS_SOLID) {
         media_store(STATE_MEDIA, id, path.media);
     }
+}
+
+// Radiance so far, with what the shadow rays of the last vertex have brought.
+Spectrum path_radiance(uint id, uint bits) {
+    Spectrum radiance = STATE(STATE_RADIANCE, id).xyz;
+    if ((bits & 1024u) != 0u) {
+        radiance += STATE(STATE_SHADOW + 2u, id).xyz;
+    }
+    if ((bits & 2048u) != 0u) {
+        radiance += STATE(STATE_SHADOW + 6u, id).xyz;
+    }
+    return radiance;
 }
 
 Path path_load(uint id) {
@@ -177,14 +192,16 @@ Path path_load(uint id) {
     path.travelled = beta.w;
     path.arrival_p = arrival.xyz;
     path.eta_scale = arrival.w;
-    path.radiance = radiance.xyz;
     path.alpha = radiance.w;
     path.wavelength = more.y;
     path.through_solid = (bits & 1u) != 0u;
     path.seen_by_camera = (bits & 2u) != 0u;
     path.straight = (bits & 4u) != 0u;
     path.caught = (bits >> 3) & 127u;
-    path.depth = bits >> 10;
+    path.depth = bits >> 12;
+    path.asked_far = false;
+    path.asked_near = false;
+    path.radiance = path_radiance(id, bits);
     path.media = medium_stack_empty();
     if (HAS_SOLID) {
         path.media = media_load(STATE_MEDIA, id);
@@ -193,7 +210,7 @@ Path path_load(uint id) {
 }
 
 uint path_load_depth(uint id) {
-    return floatBitsToUint(STATE(STATE_BITS, id).x) >> 10;
+    return floatBitsToUint(STATE(STATE_BITS, id).x) >> 12;
 }
 
 // What a path's ray has met; `geometry` is NONE for a miss.
@@ -228,6 +245,12 @@ void pending_store(uint group, uint id, PendingLight light, uint depth) {
     if (HAS_SOLID) {
         media_store(STATE_SHADOW_MEDIA + 2u * group, id, light.media);
     }
+}
+
+// What a shadow ray has brought, in the place of what it would bring.
+void pending_arrived(uint group, uint id, Spectrum arrived) {
+    Quads state = push.view.state;
+    state.at[(STATE_SHADOW + 4u * group + 2u) * push.view.capacity + id] = vec4(arrived, 0.0);
 }
 
 PendingLight pending_load(uint group, uint id, out uint depth) {

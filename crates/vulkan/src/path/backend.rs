@@ -120,11 +120,13 @@ struct Rays {
     shadow: u64,
 }
 
-impl From<QueueHeads> for Rays {
-    fn from(heads: QueueHeads) -> Self {
+impl Shot {
+    /// Rays of a slice whose last submission left these heads.
+    fn rays(&self, heads: &QueueHeads) -> Rays {
         // Those of the last step have not been counted yet.
-        let last = [0, 1].map(|g| u64::from(heads.at[(queue::SHADOW + g) as usize].count));
-        Rays { path: heads.path_rays.into(), shadow: u64::from(heads.shadow_rays) + last[0] + last[1] }
+        let list = queue::SHADOW + 2 * (1 - self.steps % 2);
+        let last: u64 = (list..list + 2).map(|l| u64::from(heads.at[l as usize].count)).sum();
+        Rays { path: heads.path_rays.into(), shadow: u64::from(heads.shadow_rays) + last }
     }
 }
 
@@ -241,7 +243,7 @@ impl VulkanBackend {
             pending.pop_front().expect("one slice for each turn").wait()?;
             let flight = &flights[(i - 1) % 2];
             note(&mut times, flight)?;
-            let (rays, now) = (Rays::from(flight.heads.read()), Instant::now());
+            let (rays, now) = (shot.rays(&flight.heads.read()), Instant::now());
             frames.progress.rays += rays.path + rays.shadow;
             frames.path_rays += rays.path;
             if *ends {
@@ -312,7 +314,7 @@ impl VulkanBackend {
     ) -> Result<Rays, VulkanError> {
         let mut heads = first.heads.read();
         if shot.complete {
-            return Ok(heads.into());
+            return Ok(shot.rays(&heads));
         }
         // An even number of steps: each submission finds the paths in the first list.
         let flight = self.flight(shot, false)?;
@@ -327,7 +329,7 @@ impl VulkanBackend {
             shot.passes.record(commands, paths, &timer, (&shot.of(slice), false, 0, true));
             Ok(())
         })?;
-        Ok(heads.into())
+        Ok(shot.rays(&heads))
     }
 
     /// Gets ready for a film and so many samples of each pixel: pipelines, view, empty sums.

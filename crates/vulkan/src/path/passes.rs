@@ -1,7 +1,7 @@
 //! The passes of the path tracer over all paths of a slice, and the memory in which these are under way.
 //!
 //! ```text
-//! generate, then for each scattering event: advance, trace, shade, shadow (far, near), glass (far, near), catch; at the end gather
+//! generate; for each scattering event: advance, trace beside the shadow rays of the one before, glass, shade, catch; at the end gather
 //! ```
 //!
 //! One ray generation shader that follows a path to its end, as the theses have it, was the first form of this: simple, and slow where rays
@@ -124,7 +124,7 @@ struct Recording<'a> {
 }
 
 impl Recording<'_> {
-    /// The pass before is done: notes when.
+    /// What follows waits for all before: notes when.
     fn done(&mut self) {
         self.timer.stamp(self.commands, self.stamps);
         self.stamps += 1;
@@ -136,9 +136,8 @@ impl Recording<'_> {
         (self.heads, offset_of!(QueueHeads, at) as u64 + u64::from(list) * size_of::<QueueHead>() as u64)
     }
 
-    fn rays(&mut self, pipeline: &RayPipeline, list: u32) {
+    fn rays(&self, pipeline: &RayPipeline, list: u32) {
         pipeline.trace_indirect(self.commands, bytes_of(&self.push), self.head(list), self.most);
-        self.done();
     }
 }
 
@@ -175,14 +174,18 @@ impl Passes {
 
     /// The pass of each stamp of a recording with so many steps, the first stamp left out.
     pub(super) fn stamps(&self, begins: bool, steps: u32, ends: bool) -> Vec<usize> {
-        let groups = self.groups().count();
-        let mut step = vec![1, 2, 3];
-        step.extend(std::iter::repeat_n(4, if self.shadow.is_some() { groups } else { 0 }));
-        step.extend(std::iter::repeat_n(5, if self.glass.is_some() { groups } else { 0 }));
-        step.extend(self.catch.is_some().then_some(6));
         let mut stamps = Vec::new();
         stamps.extend(begins.then_some(0));
-        (0..steps).for_each(|_| stamps.extend(&step));
+        for step in 0..steps {
+            stamps.extend([1, 2]);
+            stamps.extend((step > 0 && self.glass.is_some()).then_some(5));
+            stamps.push(3);
+            stamps.extend(self.catch.is_some().then_some(6));
+        }
+        if steps > 0 {
+            stamps.extend(self.shadow.is_some().then_some(4));
+            stamps.extend(self.glass.is_some().then_some(5));
+        }
         stamps.extend(ends.then_some(7));
         stamps
     }
@@ -219,9 +222,16 @@ impl Passes {
             self.begin(commands, paths, push);
             r.done();
         }
-        for _ in 0..steps {
-            self.step(&mut r);
+        for step in 0..steps {
+            self.step(&mut r, step > 0);
             r.push.parity = 1 - r.push.parity;
+        }
+        if steps > 0 {
+            self.shadows(&mut r);
+            if self.shadow.is_some() {
+                r.done();
+            }
+            self.glass(&mut r);
         }
         if ends {
             let groups = (paths_per_sample(push.size) as u32).div_ceil(GROUP);
@@ -230,23 +240,47 @@ impl Passes {
         }
     }
 
-    /// One scattering event of all paths.
-    fn step(&self, r: &mut Recording<'_>) {
+    /// One scattering event of all paths. The shadow rays of the one before are traced beside its rays: what few rays leave idle, others
+    /// fill.
+    fn step(&self, r: &mut Recording<'_>, after_another: bool) {
         self.advance.dispatch(r.commands, bytes_of(&r.push), [1, 1]);
         r.done();
         r.rays(&self.trace, queue::PATHS + r.push.parity);
+        if after_another {
+            self.shadows(r);
+        }
+        r.done();
+        if after_another {
+            self.glass(r);
+        }
         let groups = (r.heads, offset_of!(QueueHeads, groups) as u64);
         self.shade.dispatch_indirect(r.commands, bytes_of(&r.push), groups);
         r.done();
-        for (pipeline, list) in [(&self.shadow, queue::SHADOW), (&self.glass, queue::GLASS)] {
-            for group in pipeline.iter().flat_map(|_| self.groups()) {
-                r.push.group = group;
-                r.rays(pipeline.as_ref().expect("asked above"), list + group);
-            }
-        }
         if let Some(catch) = &self.catch {
             r.rays(catch, queue::CATCHERS);
+            r.done();
         }
+    }
+
+    /// The shadow rays of the step before this parity, to both groups of lights.
+    fn shadows(&self, r: &mut Recording<'_>) {
+        let parity = r.push.parity;
+        r.push.parity = 1 - parity;
+        for group in self.shadow.iter().flat_map(|_| self.groups()) {
+            r.push.group = group;
+            r.rays(self.shadow.as_ref().expect("asked above"), queue::SHADOW + 2 * r.push.parity + group);
+        }
+        r.push.parity = parity;
+    }
+
+    /// Those of them that meet what lets light through.
+    fn glass(&self, r: &mut Recording<'_>) {
+        let Some(glass) = &self.glass else { return };
+        for group in self.groups() {
+            r.push.group = group;
+            r.rays(glass, queue::GLASS + group);
+        }
+        r.done();
     }
 
     /// Copies the heads to the host.
