@@ -26,7 +26,7 @@ void main() {
         vec4 radiance = STATE(STATE_RADIANCE, id);
         vec4 normal = STATE(STATE_NORMAL, id);
         FilmSample result;
-        result.radiance = path_radiance(id, floatBitsToUint(STATE(STATE_BITS, id).x));
+        result.radiance = radiance.xyz + pending_brought(id, path_load_asked(id), 0u) + pending_brought(id, path_load_asked(id), 1u);
         result.alpha = radiance.w;
         result.has_hit = normal.w != 0.0;
         result.normal = normal.xyz;

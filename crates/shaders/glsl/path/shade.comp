@@ -77,8 +77,8 @@ void main() {
     if (id != NONE) {
         Path path = path_load(id);
         Scattered result = step_path(id, path);
-        path.asked_far = result.has_far;
-        path.asked_near = result.has_near;
+        path.asked |= (result.has_far ? asked_bit(push.parity, GROUP_FAR) : 0u)
+            | (result.has_near ? asked_bit(push.parity, GROUP_NEAR) : 0u);
         path_store(id, path);
         joins = bvec3(result.alive, result.has_far, result.has_near);
     }

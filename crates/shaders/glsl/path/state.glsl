@@ -40,9 +40,8 @@ struct Path {
     float alpha;
     // Scattering events so far.
     uint depth;
-    // Groups of lights from which shadow rays of the last vertex bring something.
-    bool asked_far;
-    bool asked_near;
+    // Shadow rays whose light has not been added yet: bits ASKED_….
+    uint asked;
 };
 
 // A shadow ray that waits to be traced, with what it will bring.
@@ -72,11 +71,21 @@ const uint STATE_BITS = 6u;
 const uint STATE_ALBEDO = 7u;
 const uint STATE_NORMAL = 8u;
 const uint STATE_POSITION = 9u;
-const uint STATE_SHADOW = 10u; // four for each group of lights
-const uint STATE_MEDIA = 18u; // two
-const uint STATE_SHADOW_MEDIA = 20u; // two for each group of lights
-const uint STATE_QUADS_PLAIN = 18u;
-const uint STATE_QUADS = 24u;
+const uint STATE_SHADOW = 10u; // four for each group of lights, for either parity
+const uint STATE_MEDIA = 26u; // two
+const uint STATE_SHADOW_MEDIA = 28u; // two for each group of lights, for either parity
+const uint STATE_QUADS_PLAIN = 26u;
+const uint STATE_QUADS = 36u;
+
+// Shadow rays of a path lie apart by the parity of the step that asked for them: those of one step may still be under way through glass
+// while the next asks for others. What they bring is added two steps later, or with the film.
+uint pending_slot(uint parity, uint group) {
+    return 2u * parity + group;
+}
+
+uint asked_bit(uint parity, uint group) {
+    return 1u << pending_slot(parity, group);
+}
 
 #define STATE(place, id) push.view.state.at[(place) * push.view.capacity + (id)]
 
@@ -152,7 +161,7 @@ void path_store(uint id, Path path) {
     Quads state = push.view.state;
     uint n = push.view.capacity;
     uint bits = (path.through_solid ? 1u : 0u) | (path.seen_by_camera ? 2u : 0u) | (path.straight ? 4u : 0u)
-        | (path.caught << 3) | (path.asked_far ? 1024u : 0u) | (path.asked_near ? 2048u : 0u) | (path.depth << 12);
+        | (path.caught << 3) | (path.asked << 10) | (path.depth << 14);
     state.at[STATE_RAY * n + id] = vec4(path.ray.origin, 0.0);
     state.at[STATE_DIRECTION * n + id] = vec4(path.ray.dir, path.arrival_pdf);
     state.at[STATE_BETA * n + id] = vec4(path.beta, path.travelled);
@@ -164,16 +173,19 @@ void path_store(uint id, Path path) {
     }
 }
 
-// Radiance so far, with what the shadow rays of the last vertex have brought.
-Spectrum path_radiance(uint id, uint bits) {
-    Spectrum radiance = STATE(STATE_RADIANCE, id).xyz;
-    if ((bits & 1024u) != 0u) {
-        radiance += STATE(STATE_SHADOW + 2u, id).xyz;
+// What shadow rays asked for by steps of a parity have brought.
+Spectrum pending_brought(uint id, uint asked, uint parity) {
+    Spectrum brought = vec3(0.0);
+    for (uint group = 0u; group < 2u; ++group) {
+        if ((asked & asked_bit(parity, group)) != 0u) {
+            brought += STATE(STATE_SHADOW + 4u * pending_slot(parity, group) + 2u, id).xyz;
+        }
     }
-    if ((bits & 2048u) != 0u) {
-        radiance += STATE(STATE_SHADOW + 6u, id).xyz;
-    }
-    return radiance;
+    return brought;
+}
+
+uint path_load_asked(uint id) {
+    return (floatBitsToUint(STATE(STATE_BITS, id).x) >> 10) & 15u;
 }
 
 Path path_load(uint id) {
@@ -198,10 +210,10 @@ Path path_load(uint id) {
     path.seen_by_camera = (bits & 2u) != 0u;
     path.straight = (bits & 4u) != 0u;
     path.caught = (bits >> 3) & 127u;
-    path.depth = bits >> 12;
-    path.asked_far = false;
-    path.asked_near = false;
-    path.radiance = path_radiance(id, bits);
+    path.depth = bits >> 14;
+    path.asked = (bits >> 10) & 15u;
+    path.radiance = radiance.xyz + pending_brought(id, path.asked, push.parity);
+    path.asked &= ~(asked_bit(push.parity, 0u) | asked_bit(push.parity, 1u));
     path.media = medium_stack_empty();
     if (HAS_SOLID) {
         path.media = media_load(STATE_MEDIA, id);
@@ -210,7 +222,7 @@ Path path_load(uint id) {
 }
 
 uint path_load_depth(uint id) {
-    return floatBitsToUint(STATE(STATE_BITS, id).x) >> 12;
+    return floatBitsToUint(STATE(STATE_BITS, id).x) >> 14;
 }
 
 // What a path's ray has met; `geometry` is NONE for a miss.
@@ -236,25 +248,27 @@ bool hit_load(uint id, out Hit hit) {
 void pending_store(uint group, uint id, PendingLight light, uint depth) {
     Quads state = push.view.state;
     uint n = push.view.capacity;
-    uint place = STATE_SHADOW + 4u * group;
+    uint slot = pending_slot(push.parity, group);
+    uint place = STATE_SHADOW + 4u * slot;
     uint bits = (light.solids_pass ? 1u : 0u) | (depth << 1);
     state.at[place * n + id] = vec4(light.ray.origin, light.ray.t_max);
     state.at[(place + 1u) * n + id] = vec4(light.ray.dir, uintBitsToFloat(bits));
     state.at[(place + 2u) * n + id] = vec4(light.contribution, light.mis_weight);
     state.at[(place + 3u) * n + id] = vec4(light.prob, light.wavelength, 0.0, 0.0);
     if (HAS_SOLID) {
-        media_store(STATE_SHADOW_MEDIA + 2u * group, id, light.media);
+        media_store(STATE_SHADOW_MEDIA + 2u * slot, id, light.media);
     }
 }
 
 // What a shadow ray has brought, in the place of what it would bring.
 void pending_arrived(uint group, uint id, Spectrum arrived) {
     Quads state = push.view.state;
-    state.at[(STATE_SHADOW + 4u * group + 2u) * push.view.capacity + id] = vec4(arrived, 0.0);
+    state.at[(STATE_SHADOW + 4u * pending_slot(push.parity, group) + 2u) * push.view.capacity + id] = vec4(arrived, 0.0);
 }
 
 PendingLight pending_load(uint group, uint id, out uint depth) {
-    uint place = STATE_SHADOW + 4u * group;
+    uint slot = pending_slot(push.parity, group);
+    uint place = STATE_SHADOW + 4u * slot;
     vec4 ray = STATE(place, id);
     vec4 direction = STATE(place + 1u, id);
     vec4 contribution = STATE(place + 2u, id);
@@ -270,7 +284,7 @@ PendingLight pending_load(uint group, uint id, out uint depth) {
     light.solids_pass = (bits & 1u) != 0u;
     light.media = medium_stack_empty();
     if (HAS_SOLID) {
-        light.media = media_load(STATE_SHADOW_MEDIA + 2u * group, id);
+        light.media = media_load(STATE_SHADOW_MEDIA + 2u * slot, id);
     }
     return light;
 }

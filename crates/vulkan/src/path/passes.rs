@@ -1,7 +1,8 @@
 //! The passes of the path tracer over all paths of a slice, and the memory in which these are under way.
 //!
 //! ```text
-//! generate; for each scattering event: advance, trace beside the shadow rays of the one before, glass, shade, catch; at the end gather
+//! generate; for each scattering event: advance; trace, beside it the shadow rays of the
+//! event before; shade, beside it glass; catch. At the end shadow, glass, gather
 //! ```
 //!
 //! One ray generation shader that follows a path to its end, as the theses have it, was the first form of this: simple, and slow where rays
@@ -176,15 +177,12 @@ impl Passes {
     pub(super) fn stamps(&self, begins: bool, steps: u32, ends: bool) -> Vec<usize> {
         let mut stamps = Vec::new();
         stamps.extend(begins.then_some(0));
-        for step in 0..steps {
-            stamps.extend([1, 2]);
-            stamps.extend((step > 0 && self.glass.is_some()).then_some(5));
-            stamps.push(3);
+        for _ in 0..steps {
+            stamps.extend([1, 2, 3]);
             stamps.extend(self.catch.is_some().then_some(6));
         }
         if steps > 0 {
-            stamps.extend(self.shadow.is_some().then_some(4));
-            stamps.extend(self.glass.is_some().then_some(5));
+            stamps.extend([4, 5]);
         }
         stamps.extend(ends.then_some(7));
         stamps
@@ -228,10 +226,9 @@ impl Passes {
         }
         if steps > 0 {
             self.shadows(&mut r);
-            if self.shadow.is_some() {
-                r.done();
-            }
+            r.done();
             self.glass(&mut r);
+            r.done();
         }
         if ends {
             let groups = (paths_per_sample(push.size) as u32).div_ceil(GROUP);
@@ -240,8 +237,8 @@ impl Passes {
         }
     }
 
-    /// One scattering event of all paths. The shadow rays of the one before are traced beside its rays: what few rays leave idle, others
-    /// fill.
+    /// One scattering event of all paths. The shadow rays of the one before are traced beside its rays, and those of them that meet glass are
+    /// followed while it shades: what few rays leave idle, other work fills.
     fn step(&self, r: &mut Recording<'_>, after_another: bool) {
         self.advance.dispatch(r.commands, bytes_of(&r.push), [1, 1]);
         r.done();
@@ -264,23 +261,27 @@ impl Passes {
 
     /// The shadow rays of the step before this parity, to both groups of lights.
     fn shadows(&self, r: &mut Recording<'_>) {
-        let parity = r.push.parity;
-        r.push.parity = 1 - parity;
-        for group in self.shadow.iter().flat_map(|_| self.groups()) {
-            r.push.group = group;
-            r.rays(self.shadow.as_ref().expect("asked above"), queue::SHADOW + 2 * r.push.parity + group);
+        if let Some(shadow) = &self.shadow {
+            self.for_lights(r, |r| r.rays(shadow, queue::SHADOW + 2 * r.push.parity + r.push.group));
         }
-        r.push.parity = parity;
     }
 
     /// Those of them that meet what lets light through.
     fn glass(&self, r: &mut Recording<'_>) {
-        let Some(glass) = &self.glass else { return };
+        if let Some(glass) = &self.glass {
+            self.for_lights(r, |r| r.rays(glass, queue::GLASS + r.push.group));
+        }
+    }
+
+    /// Launches for each group of lights, for the paths of the step before.
+    fn for_lights(&self, r: &mut Recording<'_>, launch: impl Fn(&Recording<'_>)) {
+        let parity = r.push.parity;
+        r.push.parity = 1 - parity;
         for group in self.groups() {
             r.push.group = group;
-            r.rays(glass, queue::GLASS + group);
+            launch(r);
         }
-        r.done();
+        r.push.parity = parity;
     }
 
     /// Copies the heads to the host.
