@@ -23,7 +23,7 @@ type Members = BTreeMap<String, u32>;
 /// A struct of Rust: its name in shaders and its fields; the pattern names all, so that none is forgotten.
 macro_rules! fields {
     ($shader:literal, $rust:ident { $($field:ident),* $(,)? }) => {{
-        #[allow(dead_code)]
+        #[expect(dead_code, reason = "it is there to be compiled")]
         fn all_are_named(x: &$rust) {
             let $rust { $($field: _),* } = x;
         }

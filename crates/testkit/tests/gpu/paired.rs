@@ -1,74 +1,116 @@
-//! The paired test: the same samples on both devices, path by path.
+//! The paired test on scenes of files: the same samples on both devices, path by path.
 
-use crate::common::Both;
-use lumbre_testkit::paired::Bounds;
-use lumbre_testkit::ready::{asset, open};
+use crate::common::{Both, Shot, assert_none, load};
+use lumbre_testkit::ready::asset;
+use std::path::{Path, PathBuf};
 
-/// Compares a scene of `assets/scenes`.
-fn check(name: &str, bounds: &Bounds, size: [u32; 2], spp: u32) {
-    let ready = open(&asset(name), size[0] as f32 / size[1] as f32);
-    let Some(both) = Both::new(ready.backend.scene().clone()) else { return };
-    let began = std::time::Instant::now();
-    let paired = both.paired(&ready.view, size, spp);
-    println!("{name}: {paired}, {:.1} s", began.elapsed().as_secs_f32());
-    let faults = paired.faults(bounds);
-    assert!(faults.is_empty(), "{name}: {}", faults.join("; "));
+/// Compares the view of a camera of a file.
+fn faults(path: &Path, camera: &str, shot: &Shot) -> Vec<String> {
+    let name = path.file_name().expect("a file").to_string_lossy();
+    let (scene, view) = load(path, camera, shot.aspect());
+    let Some(both) = Both::new(scene) else { return Vec::new() };
+    both.faults(&format!("{name} {camera}"), &view, shot)
+}
+
+/// Compares all files of a list; the faults of all of them.
+fn check(root: &Path, files: &[(&str, &str, Shot)]) {
+    let faults: Vec<String> =
+        files.iter().flat_map(|(file, camera, shot)| faults(&root.join(file), camera, shot)).collect();
+    assert_none(&faults);
 }
 
 #[test]
-fn smooth() {
-    check("smooth.gltf", &Bounds::PLAIN, [48, 48], 4);
+fn our_scenes() {
+    check(
+        &asset(""),
+        &[
+            ("smooth.gltf", "", Shot::PLAIN),
+            ("prism.gltf", "", Shot::PLAIN),
+            ("leaves.gltf", "", Shot::PLAIN),
+            ("plates.glb", "", Shot::PLAIN),
+            ("cornell.glb", "", Shot::TEXTURED),
+            ("cornell.obj", "", Shot::TEXTURED),
+            ("lanterns.glb", "", Shot::TEXTURED),
+        ],
+    );
 }
 
 #[test]
-fn cornell() {
-    check("cornell.glb", &Bounds::TEXTURED, [64, 48], 4);
+fn our_large_scenes() {
+    check(
+        &asset(""),
+        &[
+            ("materials.glb", "all", Shot::TEXTURED),
+            ("pool.glb", "exterior", Shot::TEXTURED),
+            ("pool.glb", "interior", Shot::TEXTURED),
+        ],
+    );
 }
 
-#[test]
-fn prism() {
-    check("prism.gltf", &Bounds::PLAIN, [48, 48], 4);
-}
-
-#[test]
-fn leaves() {
-    check("leaves.gltf", &Bounds::TEXTURED, [48, 48], 4);
-}
-
-#[test]
-fn pool() {
-    check("pool.glb", &Bounds::TEXTURED, [64, 36], 4);
-}
-
-#[test]
-fn debug() {
-    let name = std::env::var("SCENE").unwrap();
-    let mut ready = open(&asset(&name), 1.0);
-    let Some(both) = Both::new(ready.backend.scene().clone()) else { return };
-    for depth in [0, 1, 2, 3] {
-        ready.view.settings.max_depth = Some(depth);
-        let pairs = both.pairs(&ready.view, [32, 32], 1);
-        println!("depth {depth}: {}", lumbre_testkit::paired::Paired::new(&pairs));
-        let (a, b) = &pairs[0];
-        if depth == 0 {
-            let mut diff = [0; 4];
-            for (p, q) in a.pixels().iter().zip(b.pixels()) {
-                let d =
-                    |x: [f32; 3], y: [f32; 3]| x.iter().zip(y).any(|(x, y)| (x - y).abs() > 1e-3) as usize;
-                diff[0] += d(p.albedo().to_array(), q.albedo().to_array());
-                diff[1] += d(p.normal(), q.normal());
-                diff[2] += d(p.position(), q.position());
-                diff[3] += ((p.alpha() - q.alpha()).abs() > 1e-3) as usize;
-            }
-            println!("albedo normal position alpha differ: {diff:?}");
-        }
-        let mut shown = 0;
-        for (i, (p, q)) in a.pixels().iter().zip(b.pixels()).enumerate() {
-            let (x, y) = (p.radiance().to_array(), q.radiance().to_array());
-            if x.iter().zip(y).any(|(x, y)| (x - y).abs() > 1e-3 * x.abs().max(0.01)) && shown < 6 {
-                shown += 1;
-                println!("  {i}: {x:?} {y:?} albedo {:?} {:?}", p.albedo(), q.albedo());
-            }
-        }
+/// The folder of scenes that are not ours; `None`, with a line that says what is not compared then.
+fn shared() -> Option<PathBuf> {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
+    let folder = std::env::var_os("LUMBRE_SCENES").map_or_else(beside, PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
     }
+    for (file, ..) in SHARED.iter().flat_map(|list| list.iter()) {
+        println!("skipped: {file}: no folder of shared scenes (LUMBRE_SCENES)");
+    }
+    None
+}
+
+type List = &'static [(&'static str, &'static str, Shot)];
+
+/// What each exercises is in the README of that folder.
+const SHARED: [List; 4] = [
+    &[
+        ("gltf-sample-assets/TransmissionTest/glTF-Binary/TransmissionTest.glb", "", Shot::TEXTURED),
+        ("gltf-sample-assets/AttenuationTest/glTF-Binary/AttenuationTest.glb", "", Shot::TEXTURED),
+        ("gltf-sample-assets/AlphaBlendModeTest/glTF-Binary/AlphaBlendModeTest.glb", "", Shot::TEXTURED),
+        ("gltf-sample-assets/ToyCar/glTF/ToyCar.gltf", "", Shot::TEXTURED),
+    ],
+    &[
+        ("gltf-sample-assets/ClearCoatTest/glTF/ClearCoatTest.gltf", "", Shot::TEXTURED),
+        ("gltf-sample-assets/SheenCloth/glTF/SheenCloth.gltf", "", Shot::TEXTURED),
+        ("gltf-sample-assets/IridescenceLamp/glTF/IridescenceLamp.gltf", "", Shot::TEXTURED),
+        (
+            "gltf-sample-assets/AnisotropyStrengthTest/glTF-Binary/AnisotropyStrengthTest.glb",
+            "",
+            Shot::TEXTURED,
+        ),
+    ],
+    &[
+        ("gltf-sample-assets/NormalTangentTest/glTF-Binary/NormalTangentTest.glb", "", Shot::TEXTURED),
+        ("gltf-sample-assets/NegativeScaleTest/glTF-Binary/NegativeScaleTest.glb", "", Shot::TEXTURED),
+        ("gltf-sample-assets/SimpleInstancing/glTF-Binary/SimpleInstancing.glb", "", Shot::TEXTURED),
+        ("gltf-sample-assets/EmissiveStrengthTest/glTF-Binary/EmissiveStrengthTest.glb", "", Shot::TEXTURED),
+        ("gltf-sample-assets/UnlitTest/glTF-Binary/UnlitTest.glb", "", Shot::PLAIN),
+    ],
+    &[
+        ("cornell-box-gltf/rayferric/cornell-box.gltf", "", Shot::PLAIN),
+        ("asmilex-obj/scenes/cornell_box_glossy.obj", "", Shot::PLAIN),
+        ("asmilex-obj/scenes/Medieval_building.obj", "", Shot::TEXTURED),
+        ("sponza/glTF-Draco-WebP/Sponza.glb", "", Shot::TEXTURED),
+    ],
+];
+
+#[test]
+fn shared_transmission() {
+    shared().iter().for_each(|root| check(root, SHARED[0]));
+}
+
+#[test]
+fn shared_lobes() {
+    shared().iter().for_each(|root| check(root, SHARED[1]));
+}
+
+#[test]
+fn shared_geometry() {
+    shared().iter().for_each(|root| check(root, SHARED[2]));
+}
+
+#[test]
+fn shared_rooms() {
+    shared().iter().for_each(|root| check(root, SHARED[3]));
 }
