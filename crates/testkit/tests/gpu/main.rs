@@ -1,6 +1,9 @@
 //! The GPU against the CPU: hits, then whole paths.
 
+mod built;
 mod common;
 mod hits;
 mod paired;
+mod planted;
+mod scenes;
 mod textures;
