@@ -5,5 +5,6 @@ mod common;
 mod hits;
 mod paired;
 mod planted;
+mod running;
 mod scenes;
 mod textures;
