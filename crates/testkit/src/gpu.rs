@@ -1,6 +1,6 @@
 //! The GPU of this machine, for tests: one device that all tests of a program share, with the validation layer where it is installed.
 
-use lumbre_vulkan::{Gpu, Options, Validation, VulkanError, Wanted};
+use lumbre_vulkan::{Gpu, Kind, Options, Validation, VulkanError, Wanted};
 use std::ops::Deref;
 use std::sync::OnceLock;
 
@@ -15,12 +15,25 @@ pub struct TestGpu(Gpu);
 /// If there is none and `LUMBRE_REQUIRE_GPU` is 1, or if the device does not open for another reason.
 pub fn gpu() -> Option<TestGpu> {
     static GPU: OnceLock<Result<Gpu, VulkanError>> = OnceLock::new();
-    let open = || {
-        let wanted = std::env::var("LUMBRE_TEST_GPU").map_or(Wanted::Best, |w| w.parse().unwrap());
-        Gpu::open(&wanted, Options { validation: Validation::WhereInstalled, ..Options::default() })
-    };
-    match GPU.get_or_init(open) {
-        Ok(gpu) => Some(TestGpu(gpu.clone())),
+    there(GPU.get_or_init(open).clone())
+}
+
+/// The same opened once more, for tests that lose it or count its memory.
+///
+/// # Panics
+/// As [`gpu`].
+pub fn own_gpu() -> Option<TestGpu> {
+    there(open())
+}
+
+fn open() -> Result<Gpu, VulkanError> {
+    let wanted = std::env::var("LUMBRE_TEST_GPU").map_or(Wanted::Best, |w| w.parse().unwrap());
+    Gpu::open(&wanted, Options { validation: Validation::WhereInstalled, ..Options::default() })
+}
+
+fn there(opened: Result<Gpu, VulkanError>) -> Option<TestGpu> {
+    match opened {
+        Ok(gpu) => Some(TestGpu(gpu)),
         Err(error @ (VulkanError::NoLoader(_) | VulkanError::NoDevice(_))) => {
             let required = std::env::var("LUMBRE_REQUIRE_GPU").is_ok_and(|v| v == "1");
             assert!(!required, "LUMBRE_REQUIRE_GPU=1, but: {error}");
@@ -28,6 +41,13 @@ pub fn gpu() -> Option<TestGpu> {
             None
         }
         Err(error) => panic!("{error}"),
+    }
+}
+
+impl TestGpu {
+    /// Whether it is one, not a driver that computes on the processor.
+    pub fn is_real(&self) -> bool {
+        self.0.adapter().kind != Kind::Cpu
     }
 }
 

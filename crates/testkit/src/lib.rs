@@ -21,4 +21,4 @@ pub mod sheen_tables;
 pub mod square;
 pub mod z_test;
 
-pub use gpu::{TestGpu, gpu};
+pub use gpu::{TestGpu, gpu, own_gpu};

@@ -8,7 +8,7 @@ use lumbre_scene::{Background, CompiledScene, Environment, Scene};
 use lumbre_testkit::paired::{Bounds, Paired};
 use lumbre_testkit::{TestGpu, gpu};
 use lumbre_vulkan::{SceneOptions, VulkanBackend};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// A scene on both devices.
@@ -112,6 +112,17 @@ pub(crate) fn load(path: &Path, camera: &str, aspect: f32) -> (CompiledScene, Vi
     let options = CameraOptions { choice, ..CameraOptions::default() };
     let found = lumbre::find_camera(&loaded.scene, &scene, &options, aspect).expect("a camera");
     (scene, View { camera: found.camera, settings: RenderSettings::default(), frame: 0 })
+}
+
+/// The folder of scenes that are not ours; `None`, with a line for each file that is wanted of it, where there is none.
+pub(crate) fn shared(files: &[&str]) -> Option<PathBuf> {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
+    let folder = std::env::var_os("LUMBRE_SCENES").map_or_else(beside, PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    files.iter().for_each(|file| println!("skipped: {file}: no folder of shared scenes (LUMBRE_SCENES)"));
+    None
 }
 
 pub(crate) fn compile(scene: &Scene) -> CompiledScene {

@@ -1,6 +1,10 @@
 //! The GPU against the CPU: hits, then whole paths.
 
+mod built;
 mod common;
 mod hits;
 mod paired;
+mod planted;
+mod running;
+mod scenes;
 mod textures;
