@@ -97,8 +97,7 @@ impl Backend for VulkanBackend {
     }
 
     fn warm_up(&self, view: &View) -> Result<(), RenderError> {
-        // No sample of a film of one pixel: all but the work itself.
-        Backend::render(self, view, 0..0, &mut Film::new(1, 1), &()).map(drop)
+        VulkanBackend::warm_up(self, &view.settings).map_err(|e| failed(self, &e))
     }
 
     fn pass_times(&self) -> Vec<PassTime> {
@@ -114,7 +113,7 @@ impl Backend for VulkanBackend {
         Ok(Frames {
             seconds: frames.seconds,
             progress: frames.progress,
-            path_rays: Some(frames.path_rays),
+            path_rays: frames.path_rays,
             passes: frames.passes.into_iter().map(pass_time).collect(),
         })
     }
