@@ -3,7 +3,7 @@
 use super::code::Code;
 use super::film::FilmOnGpu;
 use super::media::Solids;
-use super::passes::{HeadsReadback, MOST_PATHS, NAMES, Passes, Paths, paths_per_sample};
+use super::passes::{HeadsReadback, LEAST_PATHS, MOST_PATHS, NAMES, Passes, Paths, paths_per_sample};
 use super::slices::{Pace, Slice, Slices};
 use super::variant::SceneConstants;
 use crate::{
@@ -215,23 +215,20 @@ impl VulkanBackend {
         let mut work = self.lock();
         let film = Film::new(size[0], size[1]);
         let shot = self.shot(&mut work, view, &film, spp.into())?;
-        let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
-        let room = (capacity / paths_per_sample(size).max(1)).min(spp.into()) as u32;
-        if room == 0 || !shot.complete {
+        if !shot.complete {
             drop(work);
             return self.frames_by_renders(view, size, spp, count);
         }
+        let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
         let flights = [self.flight(&shot, true)?, self.flight(&shot, true)?];
         let (mut frames, mut times) = (Frames::default(), no_times());
         // All slices of all frames, in order; a frame is done with its last one.
-        let slices: Vec<(Slice, bool)> = (0..count)
-            .flat_map(|f| {
-                (0..spp).step_by(room as usize).map(move |s| {
-                    let end = (s + room).min(spp);
-                    (Slice { first_pixel: [0, 0], size, samples: f * spp + s..f * spp + end }, end == spp)
-                })
-            })
-            .collect();
+        let mut slices: Vec<(Slice, bool)> = Vec::new();
+        for frame in 0..count {
+            let mut of_frame = Slices::new(&film, frame * spp..(frame + 1) * spp, capacity);
+            slices.extend(std::iter::from_fn(|| of_frame.next(&Pace::unbounded())).map(|s| (s, false)));
+            slices.last_mut().into_iter().for_each(|s| s.1 = true);
+        }
         let mut pending: VecDeque<Pending> = VecDeque::new();
         let mut last = Instant::now();
         for i in 0..slices.len() + 1 {
@@ -340,11 +337,12 @@ impl VulkanBackend {
             work.film = None;
             work.film = Some(FilmOnGpu::new(&self.gpu, pixels)?);
         }
-        let paths = (paths_per_sample([film.width(), film.height()]) * samples).clamp(1 << 12, MOST_PATHS);
+        let paths = paths_per_sample([film.width(), film.height()]).saturating_mul(samples);
+        let paths = paths.clamp(LEAST_PATHS, MOST_PATHS);
         let solids = self.constants.needs.solids;
         if work.paths.as_ref().is_none_or(|p| !p.suits(paths, solids)) {
             work.paths = None;
-            work.paths = Some(Paths::new(&self.gpu, paths.next_power_of_two(), solids)?);
+            work.paths = Some(self.room(paths.next_power_of_two(), solids)?);
         }
         let on_gpu = work.film.as_ref().expect("made above");
         let table = self.view_table(view, film, on_gpu, work.paths.as_ref().expect("made above"));
@@ -370,6 +368,16 @@ impl VulkanBackend {
         let complete = steps <= MOST_STEPS && !self.constants.needs.catchers;
         let steps = if complete { steps } else { MOST_STEPS };
         Ok(Shot { passes: self.passes(work, &view.settings)?, push, steps, complete, _view: table })
+    }
+
+    /// Room for so many paths, or for fewer where memory is short: slices are smaller then.
+    fn room(&self, paths: u64, solids: bool) -> Result<Paths, VulkanError> {
+        match Paths::new(&self.gpu, paths, solids) {
+            Err(VulkanError::OutOfMemory { .. } | VulkanError::TooLarge { .. }) if paths > LEAST_PATHS => {
+                Ok(self.room(paths / 2, solids)?.short())
+            }
+            made => made,
+        }
     }
 
     fn view_table(&self, view: &View, film: &Film, on_gpu: &FilmOnGpu, paths: &Paths) -> ViewTable {

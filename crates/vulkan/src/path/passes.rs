@@ -23,8 +23,10 @@ use bytemuck::bytes_of;
 use lumbre_shaders::view::{BLOCK, Push, QUEUES, QueueHead, QueueHeads, STATE_QUADS, queue};
 use std::mem::offset_of;
 
-/// Most paths under way at a time: a frame of 1920x1080.
-pub(super) const MOST_PATHS: u64 = 1 << 21;
+/// Most paths under way at a time: a frame of 2560x1440.
+pub(super) const MOST_PATHS: u64 = 1 << 22;
+/// Fewest that there is always room for.
+pub(super) const LEAST_PATHS: u64 = 1 << 12;
 
 /// Names of the passes, in order.
 pub(super) const NAMES: [&str; 8] =
@@ -37,6 +39,8 @@ const GROUP: u32 = 64;
 pub(super) struct Paths {
     capacity: u32,
     solids: bool,
+    /// Less than was asked for.
+    short: bool,
     state: Buffer,
     queues: Buffer,
     heads: Buffer,
@@ -52,16 +56,22 @@ impl Paths {
         Ok(Paths {
             capacity: paths as u32,
             solids,
+            short: false,
             state: Buffer::new(gpu, "paths under way", paths * quads * 16, Purpose::Data)?,
             queues: Buffer::new(gpu, "lists of paths", paths * QUEUES as u64 * 4, Purpose::Data)?,
             heads: Buffer::new(gpu, "lengths of lists", size_of::<QueueHeads>() as u64, Purpose::Data)?,
         })
     }
 
-    /// Whether this is room for `paths`, and not far too much.
+    /// Whether this is room for `paths`, or all that there was, and not far too much.
     pub(super) fn suits(&self, paths: u64, solids: bool) -> bool {
         let capacity = u64::from(self.capacity);
-        capacity >= paths && capacity <= 8 * paths.max(1 << 16) && self.solids == solids
+        (capacity >= paths || self.short) && capacity <= 8 * paths.max(1 << 16) && self.solids == solids
+    }
+
+    /// Notes that there was not room for more.
+    pub(super) fn short(self) -> Self {
+        Paths { short: true, ..self }
     }
 
     /// Paths that there is room for.

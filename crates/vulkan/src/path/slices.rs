@@ -44,6 +44,11 @@ impl Default for Pace {
 }
 
 impl Pace {
+    /// Pieces as large as there is room for.
+    pub(super) fn unbounded() -> Self {
+        Pace { room: u64::MAX }
+    }
+
     /// Learns from a piece of `count` samples that took `seconds`.
     pub(super) fn learn(&mut self, count: u64, seconds: f64) {
         let fits = count as f64 * GOAL / seconds.max(1e-6);
