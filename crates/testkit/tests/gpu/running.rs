@@ -68,7 +68,7 @@ fn a_device_lost_in_the_middle() {
 fn assert_agree(a: Film, b: Film) {
     let counts = |f: &Film| f.pixels().iter().map(|p| p.samples()).collect::<Vec<_>>();
     assert_eq!(counts(&a), counts(&b));
-    let paired = Paired::new(&[(a, b)], Bounds::PLAIN.color);
+    let paired = Paired::new(&[(a, b)], &Bounds::PLAIN);
     let faults = paired.faults(&Bounds::PLAIN);
     assert!(faults.is_empty(), "{paired}: {}", faults.join("; "));
 }
@@ -97,7 +97,7 @@ fn parts_of_two_devices_add() {
     assert_agree(whole.clone(), first);
     assert_agree(whole.clone(), second);
     let again = sum(part(0..3, false), &part(0..3, true));
-    let paired = Paired::new(&[(whole, again)], Bounds::PLAIN.color);
+    let paired = Paired::new(&[(whole, again)], &Bounds::PLAIN);
     assert!(!paired.faults(&Bounds::PLAIN).is_empty(), "{paired}");
     // To a film that holds something the GPU adds as well, to the bit.
     let mut film = part(0..2, false);
