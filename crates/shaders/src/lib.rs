@@ -13,8 +13,26 @@ pub mod replay;
 pub mod tables;
 pub mod view;
 
-/// Ray generation of the path tracer.
-pub const PATH_RGEN: &[u8] = include_bytes!("../spirv/path/path.rgen.spv");
+/// Passes of the path tracer, in the order in which a sample goes through them.
+pub mod passes {
+    /// Camera rays.
+    pub const GENERATE: &[u8] = include_bytes!("../spirv/path/generate.comp.spv");
+    /// Lengths of lists.
+    pub const ADVANCE: &[u8] = include_bytes!("../spirv/path/advance.comp.spv");
+    /// Closest surfaces.
+    pub const TRACE: &[u8] = include_bytes!("../spirv/path/trace.rgen.spv");
+    /// Surfaces, lights, directions.
+    pub const SHADE: &[u8] = include_bytes!("../spirv/path/shade.comp.spv");
+    /// Shadow rays.
+    pub const SHADOW: &[u8] = include_bytes!("../spirv/path/shadow.rgen.spv");
+    /// Shadow rays through what lets light through.
+    pub const GLASS: &[u8] = include_bytes!("../spirv/path/glass.rgen.spv");
+    /// Shadow catchers.
+    pub const CATCH: &[u8] = include_bytes!("../spirv/path/catch.rgen.spv");
+    /// Finished samples, to the film.
+    pub const GATHER: &[u8] = include_bytes!("../spirv/path/gather.comp.spv");
+}
+
 /// Closest hit of a path's ray.
 pub const RADIANCE_RCHIT: &[u8] = include_bytes!("../spirv/path/radiance.rchit.spv");
 /// Any hit of a path's ray, for what is there only in part.

@@ -11,7 +11,7 @@ use lumbre_shaders::layout::{GeometryRecord, MeshTable, SceneTable, TextureTable
 use lumbre_shaders::medium::MediumStackRecord;
 use lumbre_shaders::post::PostPush;
 use lumbre_shaders::tables::Tables;
-use lumbre_shaders::view::{Push, ViewTable};
+use lumbre_shaders::view::{Push, QueueHead, QueueHeads, ViewTable};
 use rspirv::dr::{Module, Operand};
 use rspirv::spirv::{Decoration, Op};
 use std::collections::BTreeMap;
@@ -62,11 +62,13 @@ fn rust() -> Vec<(&'static str, Members)> {
             phong_specular_texture }),
         fields!("CameraRecord", CameraRecord { origin, right, up, forward, projection, half_height, aspect, lens_radius, focus_distance }),
         fields!("MediumStack", MediumStackRecord { material, ior }),
-        fields!("ViewTable", ViewTable { film, non_finite, rays, picture, origin, size, seed, frame, max_depth, roulette, clamp_to,
-            filter_kind, camera, media, unused }),
+        fields!("QueueHead", QueueHead { count, one_row, one_layer, unused }),
+        fields!("QueueHeads", QueueHeads { at, groups, path_rays, shadow_rays }),
+        fields!("ViewTable", ViewTable { film, non_finite, state, queues, heads, picture, origin, size, capacity, seed, frame, max_depth, roulette, clamp_to,
+            filter_kind, camera, media }),
         fields!("PostPush", PostPush { film, blocks, state, display, size, block_side, block_count, exposure, factor, ease, tone, vignette,
             center, half_diagonal, aberrates, scales, transparent }),
-        fields!("Push", Push { tables, scene, view, first_pixel, first_sample, sample_count }),
+        fields!("Push", Push { tables, scene, view, first_pixel, size, first_sample, sample_count, parity, group }),
         fields!("Tables", Tables { albedo_deficit, albedo_schlick_excess, albedo_deficit_average, albedo_schlick_average,
             sheen_directional, sheen_average, aniso_deficit, aniso_schlick_residual, aniso_deficit_average, aniso_schlick_average,
             wavelength_response, wavelength_cdf, filter_distance, srgb_decode }),
@@ -117,7 +119,7 @@ fn differences(structs: &BTreeMap<String, Members>, rust: &[(&str, Members)]) ->
 fn shaders() -> BTreeMap<String, Members> {
     let load = |spirv| shader(&rspirv::dr::load_bytes(spirv).expect("SPIR-V"));
     let mut structs = load(lumbre_shaders::POST_DEVELOP);
-    structs.extend(load(lumbre_shaders::PATH_RGEN));
+    structs.extend(load(lumbre_shaders::passes::SHADE));
     structs
 }
 

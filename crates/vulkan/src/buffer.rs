@@ -10,7 +10,7 @@ use gpu_allocator::vulkan::Allocation;
 /// What a buffer is for: where it lies, and what else it may be used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// Data that shaders read and write by address; vertices and instances of acceleration structures.
+    /// Data that shaders read and write by address; vertices and instances of acceleration structures; sizes of launches.
     Data,
     /// The inside of an acceleration structure.
     AccelerationStructure,
@@ -43,7 +43,10 @@ impl Purpose {
         let read = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         match self {
             Purpose::Data => {
-                copied | read | vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR
+                copied
+                    | read
+                    | vk::BufferUsageFlags::INDIRECT_BUFFER
+                    | vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR
             }
             Purpose::AccelerationStructure => {
                 vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR

@@ -233,6 +233,17 @@ impl Commands<'_> {
         unsafe { self.gpu.0.raw.cmd_copy_buffer(self.raw, from.0.raw(), to.0.raw(), &region) };
     }
 
+    /// Writes a few bytes, a multiple of four and at most 64 KiB, at the start of a buffer.
+    ///
+    /// # Panics
+    /// If there are more, or more than fit.
+    pub fn update(&self, buffer: &Buffer, bytes: &[u8]) {
+        let size = bytes.len() as u64;
+        assert!(size <= 65536 && size.is_multiple_of(4) && size <= buffer.size(), "{size} bytes to write");
+        // SAFETY: the command buffer is being recorded.
+        unsafe { self.gpu.0.raw.cmd_update_buffer(self.raw, buffer.raw(), 0, bytes) };
+    }
+
     /// Fills a whole buffer with one word.
     pub fn fill(&self, buffer: &Buffer, word: u32) {
         // SAFETY: the command buffer is being recorded.

@@ -16,7 +16,8 @@ pub(crate) struct Descriptors {
 
 /// Stages that read descriptors and push constants.
 pub(crate) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
-    vk::ShaderStageFlags::RAYGEN_KHR.as_raw()
+    vk::ShaderStageFlags::COMPUTE.as_raw()
+        | vk::ShaderStageFlags::RAYGEN_KHR.as_raw()
         | vk::ShaderStageFlags::CLOSEST_HIT_KHR.as_raw()
         | vk::ShaderStageFlags::ANY_HIT_KHR.as_raw()
         | vk::ShaderStageFlags::MISS_KHR.as_raw(),

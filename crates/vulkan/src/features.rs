@@ -21,6 +21,8 @@ pub struct Features {
     pub pipeline_statistics: bool,
     /// Descriptors may be written while command buffers that use them are recorded.
     pub update_after_bind: bool,
+    /// The device can decide itself how many rays are launched.
+    pub indirect_launch: bool,
     /// Its queue draws, too.
     pub graphics: bool,
 }
@@ -110,6 +112,7 @@ impl Offer {
                 && self.chain.reorder.ray_tracing_invocation_reorder == vk::TRUE,
             pipeline_statistics: self.has(ash::khr::pipeline_executable_properties::NAME)
                 && self.chain.executables.pipeline_executable_info == vk::TRUE,
+            indirect_launch: self.chain.pipeline.ray_tracing_pipeline_trace_rays_indirect == vk::TRUE,
             update_after_bind: self.chain.v12.descriptor_binding_sampled_image_update_after_bind == vk::TRUE,
             graphics,
         }
@@ -141,7 +144,9 @@ impl Features {
                 .descriptor_binding_sampled_image_update_after_bind(self.update_after_bind),
             acceleration: vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default()
                 .acceleration_structure(true),
-            pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default().ray_tracing_pipeline(true),
+            pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default()
+                .ray_tracing_pipeline(true)
+                .ray_tracing_pipeline_trace_rays_indirect(self.indirect_launch),
             reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV::default()
                 .ray_tracing_invocation_reorder(self.invocation_reorder),
             executables: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()

@@ -1,5 +1,6 @@
 //! Ray tracing pipelines: from SPIR-V to dispatches.
 
+use crate::buffer::Buffer;
 use crate::cache::PipelineCache;
 use crate::commands::Commands;
 use crate::descriptors::{Descriptors, STAGES};
@@ -181,6 +182,42 @@ impl RayPipeline {
                 width,
                 height,
                 depth,
+            );
+        }
+    }
+
+    /// Launches ray generation for as many invocations as `count` holds at `offset`, a `VkTraceRaysIndirectCommandKHR`, and at most `most`.
+    /// Where the device cannot read that itself, `most` are launched: shaders must ask whether there is work for them.
+    ///
+    /// # Panics
+    /// As [`Self::trace`].
+    pub fn trace_indirect(
+        &self,
+        commands: &Commands<'_>,
+        push: &[u8],
+        (count, offset): (&Buffer, u64),
+        most: u32,
+    ) {
+        if !self.gpu.features().indirect_launch {
+            return self.trace(commands, push, [most, 1, 1]);
+        }
+        let point = vk::PipelineBindPoint::RAY_TRACING_KHR;
+        let device = &self.gpu.0.raw;
+        let none = vk::StridedDeviceAddressRegionKHR::default();
+        let table = &self.table;
+        // SAFETY: as `trace`; the buffer holds the sizes when the launch begins.
+        unsafe {
+            device.cmd_bind_pipeline(commands.raw, point, self.raw);
+            let sets = [self.descriptors.set];
+            device.cmd_bind_descriptor_sets(commands.raw, point, self.layout.raw, 0, &sets, &[]);
+            self.layout.push(commands, push);
+            self.gpu.0.pipelines.cmd_trace_rays_indirect(
+                commands.raw,
+                &table.raygen,
+                &table.miss,
+                &table.hit,
+                &none,
+                count.address() + offset,
             );
         }
     }

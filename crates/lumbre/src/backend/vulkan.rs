@@ -115,7 +115,7 @@ impl Backend for VulkanBackend {
             seconds: frames.seconds,
             progress: frames.progress,
             path_rays: Some(frames.path_rays),
-            passes: vec![pass_time(frames.trace)],
+            passes: frames.passes.into_iter().map(pass_time).collect(),
         })
     }
 }

@@ -1,11 +1,12 @@
 // The path tracer: radiance along a camera ray, by next-event estimation and scattering, joined by multiple importance sampling.
-// Twin: cpu/src/path.rs, with the same named steps. One thing is done in another order, which changes no result: the BSDF is sampled before
-// the shadow rays are traced, so that the surface need not be kept while they are under way.
+// Twin: cpu/src/path.rs, with the same named steps. Here they are passes over all paths under way (vulkan/src/path/passes.rs says why), so that
+// one thing is done in another order, which changes no result: the BSDF is sampled before the shadow rays are traced.
 #ifndef PATH_PATH_GLSL
 #define PATH_PATH_GLSL
 
-#include "path/catcher.glsl"
-#include "film.glsl"
+#include "path/shadow_ray.glsl"
+#include "path/begin.glsl"
+#include "path/state.glsl"
 #include "mis.glsl"
 
 // Largest probability of surviving roulette: a path without absorption ends some day too.
@@ -30,82 +31,11 @@ struct Candidate {
     float mis_weight;
 };
 
-// A path under way.
-struct Path {
-    Sampler smp;
-    Ray ray;
-    Spectrum radiance;
-    // Throughput.
-    Spectrum beta;
-    // Radiance scaling by refraction that is part of `beta`.
-    float eta_scale;
-    MediumStack media;
-    // The wavelength that it has taken, nm; 0: none yet.
-    float wavelength;
-    // The last vertex that scattered (thin walls passed straight do not count).
-    vec3 arrival_p;
-    // Density of the direction there, sr⁻¹; negative where light sampling could not have found the light (camera, delta lobes).
-    float arrival_pdf;
-    // Since a vertex with a density, the path has done nothing but refract through smooth solids.
-    bool through_solid;
-    // So far it has only met delta lobes: what it finds is seen, not lit by.
-    bool seen_by_camera;
-    // So far it is a straight line from the camera.
-    bool straight;
-    // Shadow catchers that it has passed.
-    uint caught;
-    // Length of the rays up to the last of these, metres.
-    float travelled;
-    // How much the background is covered.
-    float alpha;
-    // Scattering events so far.
-    uint depth;
-};
-
 Hue path_hue(Path path) {
     if (HAS_DISPERSION && path.wavelength > 0.0) {
         return Hue(HUE_ONE, path.wavelength, path.smp);
     }
     return Hue(HUE_ALL, 0.0, path.smp);
-}
-
-// The hue of a shadow ray.
-Hue shadow_hue(Path path, float wavelength) {
-    return Hue(HAS_DISPERSION && wavelength > 0.0 ? HUE_ONE : HUE_STRAIGHT, wavelength, path.smp);
-}
-
-// From here on the path carries one wavelength.
-void path_take(inout Path path, Wavelength wavelength) {
-    path.beta *= wavelength.weight;
-    path.wavelength = wavelength.nm;
-}
-
-// Takes a wavelength at once where the camera stands in a medium that disperses.
-void path_begin_inside(inout Path path) {
-    path.media = push.view.media;
-    bool disperses = false;
-    for (uint i = 0u; HAS_DISPERSION && i < 4u; ++i) {
-        uint material = push.view.media.material[i];
-        disperses = disperses || (material != VACUUM && (MATERIAL(material).flags & FLAG_DISPERSION) != 0u);
-    }
-    if (HAS_DISPERSION && disperses) {
-        Wavelength wavelength = wavelength_sample(sampler_wavelength(path.smp));
-        path_take(path, wavelength);
-        for (uint i = 0u; i < 4u; ++i) {
-            uint material = path.media.material[i];
-            path.media.ior[i] = material == VACUUM ? 1.0 : index_at(material, wavelength.nm);
-        }
-    }
-}
-
-// Light that scattered this many times on its way to the camera, within the bound that the settings set.
-Spectrum path_clamped(Spectrum contribution, uint scattered) {
-    if (!CLAMPED || scattered <= 1u) {
-        return contribution;
-    }
-    float largest = max_component(contribution);
-    float most = push.view.clamp_to;
-    return largest > most ? contribution * (most / largest) : contribution;
 }
 
 // Adds light met by the path itself.
@@ -178,17 +108,10 @@ bool path_add_emission(inout Path path, Interaction it, Rgb base_color) {
     return false;
 }
 
-// True when the surface is a shadow catcher seen straight from the camera: the path has then moved on behind it.
-bool path_passes_catcher(inout Path path, Interaction it) {
-    if (!path.straight || (MATERIAL(it.material).flags & FLAG_SHADOW_CATCHER) == 0u || path.caught == MOST_CATCHERS) {
-        return false;
-    }
-    Catcher catcher = Catcher(it, path.caught, path.depth);
-    path.beta *= catcher_share(catcher, path.smp, path.media, shadow_hue(path, path.wavelength));
-    path.caught += 1u;
-    path.travelled += it.t;
-    path.ray = ray_new(interaction_leave(it, path.ray.dir), path.ray.dir, path.ray.time);
-    return true;
+// True when the surface is a shadow catcher seen straight from the camera.
+bool path_meets_catcher(Path path, Interaction it) {
+    return HAS_CATCHERS && path.straight && path.caught < MOST_CATCHERS
+        && (MATERIAL(it.material).flags & FLAG_SHADOW_CATCHER) != 0u;
 }
 
 // A light sample with what the surface makes of it.
@@ -221,24 +144,6 @@ Candidate path_candidate(Path path, Interaction it, Surface surface, vec3 wo_loc
     c.solids_pass = HAS_TRANSMISSION && shadow_solids_pass(light);
     c.line = shadow_line(it, light);
     return c;
-}
-
-// Adds what arrives of a light sample that is asked for with probability `prob`. `media` and `wavelength` are those on the far side of
-// the surface.
-void path_add_light(inout Path path, Candidate c, float prob, MediumStack media, float wavelength) {
-    if (c.reflects) {
-        media = path.media;
-        wavelength = path.wavelength;
-    }
-    ShadowRay shadow =
-        ShadowRay(c.line, media, shadow_hue(path, wavelength), shadow_wall_budget(path.depth), c.solids_pass);
-    bool through_solid;
-    uint key = coverage_key_shadow(sampler_coverage_key(path.smp), path.depth);
-    Spectrum transmittance = shadow_transmittance(shadow, key, through_solid);
-    // Scattered rays do not find light that comes straight through a solid, or leave it out.
-    float mis_weight = through_solid ? 1.0 : c.mis_weight;
-    Spectrum contribution = path.beta * c.unshadowed * transmittance * mis_weight;
-    path.radiance += path_clamped(contribution, path.depth + 1u) * (1.0 / prob);
 }
 
 // Probability that the light of a candidate is asked for, where both groups have some.
@@ -293,8 +198,28 @@ bool path_survives(inout Path path) {
     return true;
 }
 
-// Next-event estimation, then the next direction; false when the path ends.
-bool path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo) {
+// What a vertex leaves to be done.
+struct Scattered {
+    // The path goes on.
+    bool alive;
+    // Its shadow rays, if it has any.
+    bool has_far;
+    bool has_near;
+    PendingLight far;
+    PendingLight near;
+};
+
+// A candidate as a shadow ray. `media` and `wavelength` are those on the far side of the surface.
+PendingLight path_pending(Path path, Candidate c, float prob, MediumStack media, float wavelength) {
+    if (c.reflects) {
+        media = path.media;
+        wavelength = path.wavelength;
+    }
+    return PendingLight(c.line, path.beta * c.unshadowed, c.mis_weight, prob, c.solids_pass, media, wavelength);
+}
+
+// Next-event estimation, then the next direction.
+Scattered path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo) {
     vec3 wo_local = frame_to_local(surface.frame, wo);
     // Sample one light of each group.
     Candidate far;
@@ -316,13 +241,11 @@ bool path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo) {
             }
         }
     }
-    // Sample the BSDF.
-    float lobe = bsdf_has_one_lobe(surface.bsdf) ? 0.0 : sampler_lobe(path.smp, path.depth);
-    BsdfSample s;
-    bool scatters =
-        bsdf_sample(surface.bsdf, wo_local, lobe, sampler_direction(path.smp, path.depth), TRANSPORT_RADIANCE, s);
-    vec3 wi = normalize(frame_to_world(surface.frame, s.wi));
-    // Trace the shadow rays.
+    // Both cannot be faint, so one number serves.
+    float both = average(far.unshadowed) + average(near.unshadowed);
+    float prob_far = HAS_BOTH_GROUPS ? path_prob_asked(far.unshadowed, both) : 1.0;
+    float prob_near = HAS_BOTH_GROUPS ? path_prob_asked(near.unshadowed, both) : 1.0;
+    float u = HAS_BOTH_GROUPS ? sampler_light_roulette(path.smp, path.depth) : 0.0;
     MediumStack beyond = path.media;
     float wavelength = path.wavelength;
     if (surface.is_solid) {
@@ -331,101 +254,28 @@ bool path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo) {
             wavelength = surface.wavelength.nm;
         }
     }
-    float both = average(far.unshadowed) + average(near.unshadowed);
-    for (uint group = FIRST_GROUP; group < END_GROUP; ++group) {
-        Candidate c = far;
-        if (group == GROUP_NEAR) {
-            c = near;
-        }
-        float prob = HAS_BOTH_GROUPS ? path_prob_asked(c.unshadowed, both) : 1.0;
-        // Both cannot be faint, so one number serves.
-        if (c.present && (prob >= 1.0 || sampler_light_roulette(path.smp, path.depth) < prob)) {
-            path_add_light(path, c, prob, beyond, wavelength);
-        }
+    Scattered result;
+    result.has_far = HAS_FAR_LIGHTS && far.present && (prob_far >= 1.0 || u < prob_far);
+    result.has_near = HAS_NEAR_LIGHTS && near.present && (prob_near >= 1.0 || u < prob_near);
+    result.far = path_pending(path, far, prob_far, beyond, wavelength);
+    result.near = path_pending(path, near, prob_near, beyond, wavelength);
+    // Sample the BSDF.
+    float lobe = bsdf_has_one_lobe(surface.bsdf) ? 0.0 : sampler_lobe(path.smp, path.depth);
+    BsdfSample s;
+    bool scatters =
+        bsdf_sample(surface.bsdf, wo_local, lobe, sampler_direction(path.smp, path.depth), TRANSPORT_RADIANCE, s);
+    result.alive = false;
+    if (!scatters) {
+        return result;
     }
+    vec3 wi = normalize(frame_to_world(surface.frame, s.wi));
     // Interpolated normals: directions on the wrong side of the triangle carry nothing.
-    if (!scatters || (dot(wi, surface.ng) > 0.0) == lobe_is_transmission(s.lobe)) {
-        return false;
+    if ((dot(wi, surface.ng) > 0.0) == lobe_is_transmission(s.lobe)) {
+        return result;
     }
     path_step(path, it, surface, s, wi);
     // Play roulette.
-    return !is_black(path.beta) && path_survives(path);
-}
-
-Path path_new(Ray ray, Sampler smp) {
-    Path path;
-    path.smp = smp;
-    path.ray = ray;
-    path.radiance = vec3(0.0);
-    path.beta = vec3(1.0);
-    path.eta_scale = 1.0;
-    path.media = medium_stack_empty();
-    path.wavelength = 0.0;
-    path.arrival_p = ray.origin;
-    path.arrival_pdf = -1.0;
-    path.through_solid = false;
-    path.seen_by_camera = true;
-    path.straight = true;
-    path.caught = 0u;
-    path.travelled = 0.0;
-    path.alpha = 1.0;
-    path.depth = 0u;
-    return path;
-}
-
-// Radiance along a camera ray.
-FilmSample path_radiance(Ray ray, Sampler smp) {
-    Path path = path_new(ray, smp);
-    if (HAS_SOLID) {
-        path_begin_inside(path);
-    }
-    FilmSample result;
-    result.has_hit = false;
-    result.albedo = vec3(0.0);
-    result.normal = vec3(0.0);
-    result.position = vec3(0.0);
-    result.depth = 0.0;
-    while (true) {
-        // Find the closest surface.
-        Hit hit;
-        uint key = coverage_key_path(sampler_coverage_key(path.smp), path.depth);
-        if (!tracer_closest_hit(path.ray, key, path.depth == 0u, hit)) {
-            path_add_sky(path);
-            break;
-        }
-        Interaction it = interaction_new(path.ray, hit);
-        // Absorb on the way to it.
-        path.beta *= medium_transmittance(medium_stack_current(path.media), it.t);
-        // A catcher shows the camera what lies behind it.
-        if (HAS_CATCHERS && path_passes_catcher(path, it)) {
-            if (is_black(path.beta)) {
-                break;
-            }
-            continue;
-        }
-        // Build the surface.
-        vec3 wo = -path.ray.dir;
-        Surface surface = surface_new(it, wo, path.media, path_hue(path));
-        if (HAS_DISPERSION && surface.takes == TAKES_ON_ARRIVAL) {
-            path_take(path, surface.wavelength);
-        }
-        if (path.depth == 0u) {
-            result.has_hit = true;
-            result.albedo = bsdf_albedo(surface.bsdf);
-            result.normal = surface.frame.n;
-            result.position = it.p;
-            result.depth = path.travelled + it.t;
-        }
-        // Add what it emits.
-        if (path_add_emission(path, it, surface.base_color) || path.depth >= push.view.max_depth) {
-            break;
-        }
-        if (!path_scatter(path, it, surface, wo)) {
-            break;
-        }
-    }
-    result.radiance = path.radiance;
-    result.alpha = path.alpha;
+    result.alive = !is_black(path.beta) && path_survives(path);
     return result;
 }
 

@@ -9,25 +9,55 @@
 #include "film.glsl"
 #include "medium.glsl"
 
-// Numbers of rays are spread over this many counters of each kind, so that threads do not wait for each other.
-const uint RAY_COUNTERS = 4096u;
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Counters {
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Quads {
+    vec4 at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Queues {
     uint at[];
 };
 
-// The view, and where its film lies.
+// A list of paths: its length, as an indirect launch of rays and of groups that shade.
+struct QueueHead {
+    // An indirect launch of one ray each: VkTraceRaysIndirectCommandKHR.
+    uint count;
+    uint one_row;
+    uint one_layer;
+    uint unused;
+};
+
+// Lists of paths, by what is to be done with them next.
+const uint QUEUE_PATHS = 0u; // and 1: one is read while the other is written
+const uint QUEUE_SHADOW = 2u; // to 5: a list for each group of lights, for paths of either list
+const uint QUEUE_GLASS = 6u; // and 7: shadow rays that meet what lets light through, for each group
+const uint QUEUE_CATCHERS = 8u;
+const uint QUEUES = 9u;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer QueueHeads {
+    QueueHead at[QUEUES];
+    // An indirect dispatch of groups that shade: VkDispatchIndirectCommand.
+    uint groups[3];
+    // Rays traced since the slice began: of paths, to lights.
+    uint path_rays;
+    uint shadow_rays;
+};
+
+// The view, where its film lies, and the memory in which paths are under way.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ViewTable {
     // Sums of the film's pixels, row by row.
     FilmPixels film;
     // Samples that were not finite.
     NonFiniteList non_finite;
-    // RAY_COUNTERS numbers of rays of paths, then as many of shadow rays.
-    Counters rays;
+    // State of the paths: path/state.glsl.
+    Quads state;
+    // QUEUES lists of `capacity` paths each, and their heads.
+    Queues queues;
+    QueueHeads heads;
     // Size of the picture, and the film's part of it, pixels.
     uvec2 picture;
     uvec2 origin;
     uvec2 size;
+    // Paths that there is room for.
+    uint capacity;
     uint seed;
     uint frame;
     // Most scattering events on a path.
@@ -41,19 +71,28 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Vie
     CameraRecord camera;
     // The media around the camera.
     MediumStack media;
-    uint unused;
 };
 
 layout(push_constant, scalar) uniform Push {
     Tables tables;
     SceneTable scene;
     ViewTable view;
-    // Pixel of the film at launch index 0, 0.
+    // The slice: its first pixel in the film, its columns and rows.
     uvec2 first_pixel;
-    // Samples to take of each pixel.
+    uvec2 size;
+    // Samples of each pixel.
     uint first_sample;
     uint sample_count;
+    // Which of the two lists of paths is read.
+    uint parity;
+    // Which group of lights shadow rays go to.
+    uint group;
 } push;
+
+// The list of shadow rays to a group of lights, of the paths that are read (`parity`), or of those before.
+uint queue_shadow(uint parity, uint group) {
+    return QUEUE_SHADOW + 2u * parity + group;
+}
 
 #define MATERIAL(id) push.scene.materials.at[id]
 

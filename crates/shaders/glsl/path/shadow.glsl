@@ -2,44 +2,8 @@
 #ifndef PATH_SHADOW_GLSL
 #define PATH_SHADOW_GLSL
 
-#include "path/light_sampling.glsl"
+#include "path/shadow_ray.glsl"
 #include "path/tracer.glsl"
-
-// A straight line to a light.
-struct ShadowRay {
-    Ray ray;
-    // The media in which it begins.
-    MediumStack media;
-    // The wavelength of the path, nm, if it has taken one (HUE_ONE), or HUE_STRAIGHT.
-    Hue hue;
-    // Thin walls it may pass before the path would be too long.
-    uint wall_budget;
-    // Solids let this light through straight.
-    bool solids_pass;
-};
-
-// The line from a surface to a light.
-Ray shadow_line(Interaction it, LightSample light) {
-    vec3 origin = interaction_leave(it, light.wi);
-    if (!light.on_surface) {
-        return Ray(origin, light.wi, 0.0, light.distance, 0.0);
-    }
-    // Both ends leave their surfaces towards each other, so neither is in the way.
-    vec3 to = offset_ray_origin(light.point, light.ng, -light.wi, light.extent) - origin;
-    float d = length(to);
-    return Ray(origin, d > 0.0 ? to / d : light.wi, 0.0, d, 0.0);
-}
-
-// Whether solids let the light through straight.
-bool shadow_solids_pass(LightSample light) {
-    // The sun can be hit, but only by luck; behind glass its light is left to shadow rays like that of a point.
-    bool to_delta_light = light.is_delta || light.light == push.scene.sun.light;
-    return TRANSMISSIVE_SHADOWS == SHADOWS_AUTO ? to_delta_light : TRANSMISSIVE_SHADOWS == SHADOWS_STRAIGHT;
-}
-
-uint shadow_wall_budget(uint depth) {
-    return push.view.max_depth > depth + 1u ? push.view.max_depth - (depth + 1u) : 0u;
-}
 
 // Most transmissive surfaces that one shadow ray passes.
 const uint MOST_SURFACES = 64u;
@@ -53,7 +17,7 @@ Spectrum shadow_pass_through(ShadowRay shadow, uint key, out bool through_solid)
     through_solid = false;
     for (uint i = 0u; i < MOST_SURFACES; ++i) {
         Hit hit;
-        if (!tracer_closest_hit(ray, key, false, hit)) {
+        if (!tracer_closest_hit(ray, key, hit)) {
             return factor * medium_transmittance(medium_stack_current(media), ray.t_max - ray.t_min);
         }
         Interaction it = interaction_new(ray, hit);

@@ -2,6 +2,7 @@
 #ifndef PATH_SURFACE_GLSL
 #define PATH_SURFACE_GLSL
 
+#include "path/index.glsl"
 #include "path/interaction.glsl"
 #include "scene/texture.glsl"
 #include "bsdf/layered.glsl"
@@ -58,15 +59,6 @@ Spectrum surface_emission(Interaction it) {
         return vec3(0.0);
     }
     return MATERIAL(it.material).emission * TEXTURE(MATERIAL(it.material).emissive_texture, it, SRGB).rgb;
-}
-
-// The index of refraction of a solid at a wavelength.
-float index_at(uint material, float nm) {
-    float ior = MATERIAL(material).ior;
-    if (!HAS_DISPERSION || (MATERIAL(material).flags & FLAG_DISPERSION) == 0u) {
-        return ior;
-    }
-    return dispersed_index(ior, push.scene.lobes.at[MATERIAL(material).lobes].dispersion, nm);
 }
 
 // The two sides of a solid's boundary.

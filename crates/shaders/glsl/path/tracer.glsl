@@ -16,12 +16,17 @@ layout(location = 1) rayPayloadEXT ShadowPayload shadow_payload;
 uint path_rays = 0u;
 uint shadow_rays = 0u;
 
-// The closest surface that a path's ray finds; camera rays do not find the back faces of single-sided opaque materials.
-bool tracer_closest_hit(Ray ray, uint key, bool camera, out Hit hit) {
+// The closest surface that a path's ray finds, in `hit_payload`; camera rays do not find the back faces of single-sided opaque materials.
+void tracer_trace(Ray ray, uint key, bool camera) {
     path_rays += 1u;
     hit_payload.geometry = key;
     uint flags = camera && !SHADE_BACK_FACES ? gl_RayFlagsCullBackFacingTrianglesEXT : gl_RayFlagsNoneEXT;
     traceRayEXT(tlas, flags, 0xff, RAY_RADIANCE, 0, RAY_RADIANCE, ray.origin, ray.t_min, ray.dir, ray.t_max, 0);
+}
+
+// The closest surface that a ray finds; false: none.
+bool tracer_closest_hit(Ray ray, uint key, out Hit hit) {
+    tracer_trace(ray, key, false);
     if (hit_payload.geometry == NONE) {
         return false;
     }

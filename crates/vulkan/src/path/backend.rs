@@ -1,12 +1,13 @@
 //! A scene on a GPU, rendered into films. Twin of the loop over tiles: `cpu/src/backend.rs`.
 
 use super::code::Code;
-use super::film::{CounterReadback, FilmOnGpu};
+use super::film::FilmOnGpu;
 use super::media::Solids;
+use super::passes::{HeadsReadback, MOST_PATHS, NAMES, Passes, Paths, paths_per_sample};
 use super::slices::{Pace, Slice, Slices};
 use super::variant::SceneConstants;
 use crate::{
-    AccelReport, Buffer, Gpu, PipelineCache, RayPipeline, SceneOnGpu, SceneOptions, Specialisation, Timer,
+    AccelReport, Buffer, Gpu, Pending, PipelineCache, SceneOnGpu, SceneOptions, Specialisation, Timer,
     Upload, VulkanError,
 };
 use lumbre_core::control::{Control, Progress};
@@ -14,13 +15,17 @@ use lumbre_core::film::Film;
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_scene::CompiledScene;
 use lumbre_shaders as shaders;
-use lumbre_shaders::view::{Push, ViewTable};
+use lumbre_shaders::view::{Push, QueueHeads, ViewTable, queue};
+use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Pipelines that are kept; each is for one choice of settings.
-const PIPELINES: usize = 4;
+/// Choices of settings whose pipelines are kept.
+const VARIANTS: usize = 4;
+
+/// Most scattering events of one submission; longer paths take several.
+const MOST_STEPS: u32 = 64;
 
 /// A scene ready to be rendered on a GPU.
 pub struct VulkanBackend {
@@ -39,10 +44,11 @@ struct Work {
     code: Code,
     #[cfg(feature = "shader-reload")]
     watched: super::code::Watched,
-    pipelines: Vec<(Specialisation, Arc<RayPipeline>)>,
+    variants: Vec<(Specialisation, Arc<Passes>)>,
     film: Option<FilmOnGpu>,
+    paths: Option<Paths>,
     pace: Pace,
-    trace: PassTime,
+    times: [PassTime; NAMES.len()],
 }
 
 impl Work {
@@ -51,12 +57,17 @@ impl Work {
             code: Code::embedded(),
             #[cfg(feature = "shader-reload")]
             watched: super::code::Watched::default(),
-            pipelines: Vec::new(),
+            variants: Vec::new(),
             film: None,
+            paths: None,
             pace: Pace::default(),
-            trace: PassTime::trace(),
+            times: no_times(),
         }
     }
+}
+
+fn no_times() -> [PassTime; NAMES.len()] {
+    NAMES.map(|name| PassTime { name, ..PassTime::default() })
 }
 
 /// Time that the GPU spent on one of its passes, by its own clock.
@@ -79,22 +90,44 @@ pub struct Frames {
     pub progress: Progress,
     /// Rays of paths among them: the others went to lights.
     pub path_rays: u64,
-    /// Time of the GPU.
-    pub trace: PassTime,
+    /// Time of the GPU, pass by pass.
+    pub passes: Vec<PassTime>,
 }
 
-/// What all dispatches of a render have in common.
+/// What all submissions of a render have in common.
 struct Shot {
-    pipeline: Arc<RayPipeline>,
+    passes: Arc<Passes>,
     push: Push,
+    /// Steps of one submission, and whether paths cannot take more.
+    steps: u32,
+    complete: bool,
     /// Held for its address in `push`.
     _view: Buffer,
 }
 
-/// What is needed for a dispatch under way.
+/// What is needed for a submission under way.
 struct Flight {
     timer: Timer,
-    counters: CounterReadback,
+    heads: HeadsReadback,
+    /// Pass of each stamp but the first.
+    stamps: Vec<usize>,
+}
+
+/// Rays of a slice.
+#[derive(Clone, Copy, Debug, Default)]
+struct Rays {
+    path: u64,
+    shadow: u64,
+}
+
+impl Shot {
+    /// Rays of a slice whose last submission left these heads.
+    fn rays(&self, heads: &QueueHeads) -> Rays {
+        // Those of the last step have not been counted yet.
+        let list = queue::SHADOW + 2 * (1 - self.steps % 2);
+        let last: u64 = (list..list + 2).map(|l| u64::from(heads.at[l as usize].count)).sum();
+        Rays { path: heads.path_rays.into(), shadow: u64::from(heads.shadow_rays) + last }
+    }
 }
 
 impl VulkanBackend {
@@ -130,8 +163,7 @@ impl VulkanBackend {
 
     /// What the passes took since the scene was brought here.
     pub fn pass_times(&self) -> Vec<PassTime> {
-        let trace = self.lock().trace;
-        if trace.count > 0 { vec![trace] } else { Vec::new() }
+        ran(&self.lock().times)
     }
 
     fn lock(&self) -> MutexGuard<'_, Work> {
@@ -151,19 +183,20 @@ impl VulkanBackend {
         control: &dyn Control,
     ) -> Result<Progress, VulkanError> {
         let mut work = self.lock();
-        let shot = self.shot(&mut work, view, film)?;
-        let flight = self.flight()?;
-        let mut slices = Slices::new(film, samples);
+        let shot = self.shot(&mut work, view, film, samples.len() as u64)?;
+        let flight = self.flight(&shot, true)?;
+        let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
+        let mut slices = Slices::new(film, samples, capacity);
         let mut done = Progress::default();
         while let Some(slice) = slices.next(&work.pace) {
             if control.cancelled() {
                 break;
             }
             let began = Instant::now();
-            self.submit(&work, &shot, &flight, &slice)?.wait()?;
-            let (rays, ms) = (flight.counters.read(), flight.timer.milliseconds()?[1]);
+            self.submit(&work, &shot, &flight, (&slice, true))?.wait()?;
+            note(&mut work.times, &flight)?;
+            let rays = self.finish(&mut work, &shot, &flight, &slice)?;
             work.pace.learn(slice.count(), began.elapsed().as_secs_f64());
-            work.trace.add(ms);
             done.samples += slice.count();
             done.rays += rays.path + rays.shadow;
             control.progress(done);
@@ -181,76 +214,140 @@ impl VulkanBackend {
     pub fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, VulkanError> {
         let mut work = self.lock();
         let film = Film::new(size[0], size[1]);
-        let shot = self.shot(&mut work, view, &film)?;
-        let flights = [self.flight()?, self.flight()?];
-        let mut frames = Frames { trace: PassTime::trace(), ..Frames::default() };
-        let mut pending = std::collections::VecDeque::new();
+        let shot = self.shot(&mut work, view, &film, spp.into())?;
+        let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
+        let room = (capacity / paths_per_sample(size).max(1)).min(spp.into()) as u32;
+        if room == 0 || !shot.complete {
+            drop(work);
+            return self.frames_by_renders(view, size, spp, count);
+        }
+        let flights = [self.flight(&shot, true)?, self.flight(&shot, true)?];
+        let (mut frames, mut times) = (Frames::default(), no_times());
+        // All slices of all frames, in order; a frame is done with its last one.
+        let slices: Vec<(Slice, bool)> = (0..count)
+            .flat_map(|f| {
+                (0..spp).step_by(room as usize).map(move |s| {
+                    let end = (s + room).min(spp);
+                    (Slice { first_pixel: [0, 0], size, samples: f * spp + s..f * spp + end }, end == spp)
+                })
+            })
+            .collect();
+        let mut pending: VecDeque<Pending> = VecDeque::new();
         let mut last = Instant::now();
-        for frame in 0..count + 1 {
-            if frame < count {
-                let samples = frame * spp..(frame + 1) * spp;
-                let slice = Slice { first_pixel: [0, 0], size, samples };
-                pending.push_back(self.submit(&work, &shot, &flights[frame as usize % 2], &slice)?);
+        for i in 0..slices.len() + 1 {
+            if let Some((slice, _)) = slices.get(i) {
+                pending.push_back(self.submit(&work, &shot, &flights[i % 2], (slice, true))?);
             }
-            // The frame before ends while this one is under way.
-            if frame > 0 {
-                pending.pop_front().expect("one frame for each turn").wait()?;
-                let flight = &flights[(frame as usize - 1) % 2];
-                let (rays, now) = (flight.counters.read(), Instant::now());
+            // The slice before ends while this one is under way.
+            let Some((_, ends)) = i.checked_sub(1).and_then(|i| slices.get(i)) else { continue };
+            pending.pop_front().expect("one slice for each turn").wait()?;
+            let flight = &flights[(i - 1) % 2];
+            note(&mut times, flight)?;
+            let (rays, now) = (shot.rays(&flight.heads.read()), Instant::now());
+            frames.progress.rays += rays.path + rays.shadow;
+            frames.path_rays += rays.path;
+            if *ends {
                 frames.seconds.push((now - last).as_secs_f64());
-                frames.trace.add(flight.timer.milliseconds()?[1]);
-                frames.progress.rays += rays.path + rays.shadow;
-                frames.path_rays += rays.path;
                 last = now;
             }
         }
         frames.progress.samples = u64::from(size[0]) * u64::from(size[1]) * u64::from(spp) * u64::from(count);
+        frames.passes = ran(&times);
         Ok(frames)
     }
 
-    fn flight(&self) -> Result<Flight, VulkanError> {
-        Ok(Flight { timer: Timer::new(&self.gpu, 2)?, counters: CounterReadback::new(&self.gpu)? })
+    /// Frames one by one, for paths without an end and pictures that take many slices.
+    fn frames_by_renders(
+        &self,
+        view: &View,
+        size: [u32; 2],
+        spp: u32,
+        count: u32,
+    ) -> Result<Frames, VulkanError> {
+        let mut frames = Frames::default();
+        let mut film = Film::new(size[0], size[1]);
+        for frame in 0..count {
+            let began = Instant::now();
+            let done = self.render(view, frame * spp..(frame + 1) * spp, &mut film, &())?;
+            frames.seconds.push(began.elapsed().as_secs_f64());
+            frames.progress.samples += done.samples;
+            frames.progress.rays += done.rays;
+        }
+        frames.passes = self.pass_times();
+        Ok(frames)
     }
 
-    /// Submits one dispatch.
+    fn flight(&self, shot: &Shot, begins: bool) -> Result<Flight, VulkanError> {
+        let stamps = shot.passes.stamps(begins, shot.steps, shot.complete);
+        Ok(Flight {
+            timer: Timer::new(&self.gpu, stamps.len() + 1)?,
+            heads: HeadsReadback::new(&self.gpu)?,
+            stamps,
+        })
+    }
+
+    /// Submits the beginning of a slice, or further steps of its paths.
     fn submit(
         &self,
         work: &Work,
         shot: &Shot,
         flight: &Flight,
-        slice: &Slice,
-    ) -> Result<crate::Pending, VulkanError> {
-        let film = work.film.as_ref().expect("the shot made it");
-        let push = Push {
-            first_pixel: slice.first_pixel,
-            first_sample: slice.samples.start,
-            sample_count: slice.samples.len() as u32,
-            ..shot.push
-        };
-        let [width, height] = slice.size;
+        (slice, begins): (&Slice, bool),
+    ) -> Result<Pending, VulkanError> {
+        let paths = work.paths.as_ref().expect("the shot made them");
+        let push = shot.of(slice);
         self.gpu.submit("path tracing", |commands| {
-            film.clear_counters(commands);
-            commands.barrier();
-            flight.timer.reset(commands);
-            flight.timer.stamp(commands, 0);
-            shot.pipeline.trace(commands, bytemuck::bytes_of(&push), [width, height, 1]);
-            flight.timer.stamp(commands, 1);
-            commands.barrier();
-            film.copy_counters(commands, &flight.counters);
+            let what = (&push, begins, shot.steps, shot.complete);
+            shot.passes.record(commands, paths, &flight.timer, what);
+            shot.passes.copy_heads(commands, paths, &flight.heads);
             Ok(())
         })
     }
 
-    /// Gets ready for a film: pipeline, view, empty sums.
-    fn shot(&self, work: &mut Work, view: &View, film: &Film) -> Result<Shot, VulkanError> {
+    /// Goes on until the last path of a slice has ended, and brings it to the film, where the first submission could not.
+    fn finish(
+        &self,
+        work: &mut Work,
+        shot: &Shot,
+        first: &Flight,
+        slice: &Slice,
+    ) -> Result<Rays, VulkanError> {
+        let mut heads = first.heads.read();
+        if shot.complete {
+            return Ok(shot.rays(&heads));
+        }
+        // An even number of steps: each submission finds the paths in the first list.
+        let flight = self.flight(shot, false)?;
+        while heads.at[queue::PATHS as usize].count > 0 {
+            self.submit(work, shot, &flight, (slice, false))?.wait()?;
+            note(&mut work.times, &flight)?;
+            heads = flight.heads.read();
+        }
+        let paths = work.paths.as_ref().expect("the shot made them");
+        let timer = Timer::new(&self.gpu, 2)?;
+        self.gpu.run("gathering paths", |commands| {
+            shot.passes.record(commands, paths, &timer, (&shot.of(slice), false, 0, true));
+            Ok(())
+        })?;
+        Ok(shot.rays(&heads))
+    }
+
+    /// Gets ready for a film and so many samples of each pixel: pipelines, view, empty sums.
+    fn shot(&self, work: &mut Work, view: &View, film: &Film, samples: u64) -> Result<Shot, VulkanError> {
         let pixels = film.pixels().len() as u64;
         if work.film.as_ref().is_none_or(|f| f.pixels() < pixels || f.pixels() > 4 * pixels.max(1)) {
             // The old one goes first: there may not be room for both.
             work.film = None;
             work.film = Some(FilmOnGpu::new(&self.gpu, pixels)?);
         }
+        let paths = (paths_per_sample([film.width(), film.height()]) * samples).clamp(1 << 12, MOST_PATHS);
+        let solids = self.constants.needs.solids;
+        if work.paths.as_ref().is_none_or(|p| !p.suits(paths, solids)) {
+            work.paths = None;
+            work.paths = Some(Paths::new(&self.gpu, paths.next_power_of_two(), solids)?);
+        }
         let on_gpu = work.film.as_ref().expect("made above");
-        let table = self.view_table(view, film, on_gpu);
+        let table = self.view_table(view, film, on_gpu, work.paths.as_ref().expect("made above"));
         let mut upload = Upload::new(&self.gpu);
         let table = Buffer::with_content(&mut upload, "view", bytemuck::bytes_of(&table))?;
         upload.finish()?;
@@ -263,22 +360,32 @@ impl VulkanBackend {
             scene: self.scene.address(),
             view: table.address(),
             first_pixel: [0, 0],
+            size: [0, 0],
             first_sample: 0,
             sample_count: 0,
+            parity: 0,
+            group: 0,
         };
-        Ok(Shot { pipeline: self.pipeline(work, &view.settings)?, push, _view: table })
+        let steps = view.settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND).saturating_add(1);
+        let complete = steps <= MOST_STEPS && !self.constants.needs.catchers;
+        let steps = if complete { steps } else { MOST_STEPS };
+        Ok(Shot { passes: self.passes(work, &view.settings)?, push, steps, complete, _view: table })
     }
 
-    fn view_table(&self, view: &View, film: &Film, on_gpu: &FilmOnGpu) -> ViewTable {
+    fn view_table(&self, view: &View, film: &Film, on_gpu: &FilmOnGpu, paths: &Paths) -> ViewTable {
         let settings = &view.settings;
-        let [film_address, non_finite, rays] = on_gpu.addresses();
+        let [film_address, non_finite] = on_gpu.addresses();
+        let [state, queues, heads] = paths.addresses();
         ViewTable {
             film: film_address,
             non_finite,
-            rays,
+            state,
+            queues,
+            heads,
             picture: film.picture_size(),
             origin: film.origin(),
             size: [film.width(), film.height()],
+            capacity: paths.capacity(),
             seed: settings.seed,
             frame: view.frame,
             max_depth: settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND),
@@ -287,38 +394,52 @@ impl VulkanBackend {
             filter_kind: settings.filter as u32,
             camera: (&view.camera).into(),
             media: (&self.solids.around(view.camera.origin)).into(),
-            unused: 0,
         }
     }
 
-    /// The pipeline for these settings, made if there is none yet.
-    fn pipeline(&self, work: &mut Work, settings: &RenderSettings) -> Result<Arc<RayPipeline>, VulkanError> {
+    /// The pipelines for these settings, made if there are none yet.
+    fn passes(&self, work: &mut Work, settings: &RenderSettings) -> Result<Arc<Passes>, VulkanError> {
         #[cfg(feature = "shader-reload")]
         if let Some(code) = work.watched.changed() {
             work.code = code;
-            work.pipelines.clear();
+            work.variants.clear();
         }
         let constants = self.constants.with(settings);
-        if let Some((_, pipeline)) = work.pipelines.iter().find(|(c, _)| *c == constants) {
-            return Ok(pipeline.clone());
+        if let Some((_, passes)) = work.variants.iter().find(|(c, _)| *c == constants) {
+            return Ok(passes.clone());
         }
-        let push = size_of::<Push>() as u32;
-        let pipeline =
-            Arc::new(RayPipeline::new(&self.scene, &work.code.shaders(), &constants, push, &self.cache)?);
+        let needs = (self.constants.needs, settings.light_sampling);
+        let passes = Arc::new(Passes::new(&self.scene, &work.code, &constants, needs, &self.cache)?);
         self.cache.save();
-        work.pipelines.truncate(PIPELINES - 1);
-        work.pipelines.insert(0, (constants, pipeline.clone()));
-        Ok(pipeline)
+        work.variants.truncate(VARIANTS - 1);
+        work.variants.insert(0, (constants, passes.clone()));
+        Ok(passes)
     }
 }
 
-impl PassTime {
-    fn trace() -> Self {
-        PassTime { name: "trace", ..PassTime::default() }
+impl Shot {
+    fn of(&self, slice: &Slice) -> Push {
+        Push {
+            first_pixel: slice.first_pixel,
+            size: slice.size,
+            first_sample: slice.samples.start,
+            sample_count: slice.samples.len() as u32,
+            ..self.push
+        }
     }
+}
 
-    fn add(&mut self, ms: f64) {
-        self.count += 1;
-        self.total_ms += ms;
+/// Adds the times of a submission that was waited for.
+fn note(times: &mut [PassTime], flight: &Flight) -> Result<(), VulkanError> {
+    let ms = flight.timer.milliseconds()?;
+    for (pair, &pass) in ms.windows(2).zip(&flight.stamps) {
+        times[pass].count += 1;
+        times[pass].total_ms += pair[1] - pair[0];
     }
+    Ok(())
+}
+
+/// Those that ran.
+fn ran(times: &[PassTime]) -> Vec<PassTime> {
+    times.iter().filter(|t| t.count > 0).copied().collect()
 }

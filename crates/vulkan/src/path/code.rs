@@ -4,11 +4,18 @@
 //! uses it, in a program that runs on.
 
 use crate::{HitShaders, RayShaders};
-use lumbre_shaders as shaders;
+use lumbre_shaders::{self as shaders, passes};
 
 /// SPIR-V of each stage.
 pub(super) struct Code {
-    path_rgen: Stage,
+    pub(super) generate: Stage,
+    pub(super) advance: Stage,
+    pub(super) trace: Stage,
+    pub(super) shade: Stage,
+    pub(super) shadow: Stage,
+    pub(super) glass: Stage,
+    pub(super) catch: Stage,
+    pub(super) gather: Stage,
     radiance_rchit: Stage,
     radiance_rahit: Stage,
     radiance_rmiss: Stage,
@@ -22,7 +29,14 @@ impl Code {
     /// That of `lumbre-shaders`.
     pub(super) fn embedded() -> Self {
         Code {
-            path_rgen: shaders::PATH_RGEN.into(),
+            generate: passes::GENERATE.into(),
+            advance: passes::ADVANCE.into(),
+            trace: passes::TRACE.into(),
+            shade: passes::SHADE.into(),
+            shadow: passes::SHADOW.into(),
+            glass: passes::GLASS.into(),
+            catch: passes::CATCH.into(),
+            gather: passes::GATHER.into(),
             radiance_rchit: shaders::RADIANCE_RCHIT.into(),
             radiance_rahit: shaders::RADIANCE_RAHIT.into(),
             radiance_rmiss: shaders::RADIANCE_RMISS.into(),
@@ -31,15 +45,15 @@ impl Code {
         }
     }
 
-    /// Class by class as `HitClass` has them: opaque surfaces ask nothing; transmissive ones are asked by shadow rays, those that are there
-    /// only in part by all.
-    pub(super) fn shaders(&self) -> RayShaders<'_> {
+    /// The shaders of a pass that traces rays. Class by class as `HitClass` has them: opaque surfaces ask nothing; transmissive ones are
+    /// asked by shadow rays, those that are there only in part by all.
+    pub(super) fn rays<'a>(&'a self, raygen: &'a [u8]) -> RayShaders<'a> {
         let nothing = HitShaders { closest: None, any: None };
         let closest = HitShaders { closest: Some(&self.radiance_rchit), any: None };
         let covered = HitShaders { any: Some(&self.radiance_rahit), ..closest };
         let shadow = HitShaders { closest: None, any: Some(&self.shadow_rahit) };
         RayShaders {
-            raygen: &self.path_rgen,
+            raygen,
             miss: [&self.radiance_rmiss, &self.shadow_rmiss],
             hits: [[closest, nothing], [closest, shadow], [covered, shadow]],
         }
@@ -81,7 +95,14 @@ mod reload {
     fn read(folder: &Path) -> std::io::Result<Code> {
         let stage = |name: &str| std::fs::read(folder.join(format!("{name}.spv"))).map(Into::into);
         Ok(Code {
-            path_rgen: stage("path.rgen")?,
+            generate: stage("generate.comp")?,
+            advance: stage("advance.comp")?,
+            trace: stage("trace.rgen")?,
+            shade: stage("shade.comp")?,
+            shadow: stage("shadow.rgen")?,
+            glass: stage("glass.rgen")?,
+            catch: stage("catch.rgen")?,
+            gather: stage("gather.comp")?,
             radiance_rchit: stage("radiance.rchit")?,
             radiance_rahit: stage("radiance.rahit")?,
             radiance_rmiss: stage("radiance.rmiss")?,

@@ -1,47 +1,16 @@
-//! The film on the device: exact sums of its pixels, to which ray generation adds, and what else it tells.
+//! The film on the device: exact sums of its pixels, and the list of samples that were not finite.
 
 use crate::{Buffer, Commands, Gpu, Purpose, VulkanError};
 use lumbre_core::film::{Film, PixelSums};
 use lumbre_shaders::film::{NON_FINITE_BYTES, non_finite};
-use lumbre_shaders::view::RAY_COUNTERS;
 
-/// Bytes of the counters of rays.
-const COUNTER_BYTES: u64 = 2 * RAY_COUNTERS as u64 * 4;
-
-/// Sums of a film, samples that were not finite, counters of rays.
+/// Sums of a film, and samples that were not finite.
 pub(super) struct FilmOnGpu {
     pixels: u64,
     sums: Buffer,
     non_finite: Buffer,
-    counters: Buffer,
     /// As large as the sums and the list.
     readback: Buffer,
-}
-
-/// Rays traced.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Rays {
-    /// Of paths.
-    pub(super) path: u64,
-    /// To lights.
-    pub(super) shadow: u64,
-}
-
-/// Where the host reads the counters.
-pub(super) struct CounterReadback(Buffer);
-
-impl CounterReadback {
-    pub(super) fn new(gpu: &Gpu) -> Result<Self, VulkanError> {
-        Ok(CounterReadback(Buffer::new(gpu, "numbers of rays", COUNTER_BYTES, Purpose::Readback)?))
-    }
-
-    /// The rays of the submission that copied them here.
-    pub(super) fn read(&self) -> Rays {
-        let counters = self.0.read_as::<u32>();
-        let sum = |part: &[u32]| part.iter().map(|&n| u64::from(n)).sum();
-        let (path, shadow) = counters.split_at(RAY_COUNTERS);
-        Rays { path: sum(path), shadow: sum(shadow) }
-    }
 }
 
 impl FilmOnGpu {
@@ -56,7 +25,6 @@ impl FilmOnGpu {
             pixels,
             sums: Buffer::new(gpu, "film", sums, Purpose::Data)?,
             non_finite: Buffer::new(gpu, "samples that are not finite", list, Purpose::Data)?,
-            counters: Buffer::new(gpu, "counters of rays", COUNTER_BYTES, Purpose::Data)?,
             readback: Buffer::new(gpu, "film on the host", sums + list, Purpose::Readback)?,
         })
     }
@@ -66,25 +34,15 @@ impl FilmOnGpu {
         self.pixels
     }
 
-    /// Addresses of sums, list and counters.
-    pub(super) fn addresses(&self) -> [u64; 3] {
-        [self.sums.address(), self.non_finite.address(), self.counters.address()]
+    /// Addresses of sums and list.
+    pub(super) fn addresses(&self) -> [u64; 2] {
+        [self.sums.address(), self.non_finite.address()]
     }
 
     /// Makes it an empty film.
     pub(super) fn clear(&self, commands: &Commands<'_>) {
         commands.fill(&self.sums, 0);
         commands.fill(&self.non_finite, 0);
-    }
-
-    /// Sets the counters to zero.
-    pub(super) fn clear_counters(&self, commands: &Commands<'_>) {
-        commands.fill(&self.counters, 0);
-    }
-
-    /// Brings the counters to the host.
-    pub(super) fn copy_counters(&self, commands: &Commands<'_>, to: &CounterReadback) {
-        commands.copy((&self.counters, 0), (&to.0, 0), COUNTER_BYTES);
     }
 
     /// Adds what it holds to a film of as many pixels.

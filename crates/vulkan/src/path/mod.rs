@@ -4,6 +4,7 @@ mod backend;
 mod code;
 mod film;
 mod media;
+mod passes;
 mod slices;
 mod variant;
 

@@ -1,7 +1,9 @@
 //! The work of a render in pieces that take about a tenth of a second each, so that it can be cancelled, tells how far it is and never holds
 //! the device for long.
 
+use super::passes::paths_per_sample;
 use lumbre_core::film::Film;
+use lumbre_shaders::view::BLOCK;
 use std::ops::Range;
 
 /// Seconds that a piece should take.
@@ -55,42 +57,45 @@ impl Pace {
 pub(super) struct Slices {
     size: [u32; 2],
     samples: Range<u32>,
+    /// Most paths of a piece.
+    capacity: u64,
     /// Where the current sample (or the whole, before it has begun) goes on.
     at: [u32; 2],
 }
 
 impl Slices {
-    pub(super) fn new(film: &Film, samples: Range<u32>) -> Self {
+    /// `capacity`: most paths of a piece, at least 4096.
+    pub(super) fn new(film: &Film, samples: Range<u32>, capacity: u64) -> Self {
         let size = [film.width(), film.height()];
         let samples = if size.contains(&0) { 0..0 } else { samples };
-        Slices { size, samples, at: [0, 0] }
+        Slices { size, samples, capacity, at: [0, 0] }
     }
 
-    /// The next piece, of the size that the pace allows.
+    /// The next piece, about of the size that the pace allows; whole blocks of pixels.
     pub(super) fn next(&mut self, pace: &Pace) -> Option<Slice> {
         if self.samples.is_empty() {
             return None;
         }
+        let room = pace.room.min(self.capacity);
         let [width, height] = self.size;
-        let pixels = u64::from(width) * u64::from(height);
-        let first = self.samples.start;
-        if self.at == [0, 0] && pace.room >= pixels {
+        let (paths, first) = (paths_per_sample(self.size), self.samples.start);
+        if self.at == [0, 0] && room >= paths {
             let most = u64::from(self.samples.end - first);
-            let count = (pace.room / pixels).min(most) as u32;
+            let count = (room / paths).min(most) as u32;
             self.samples.start += count;
             return Some(Slice { first_pixel: [0, 0], size: self.size, samples: first..first + count });
         }
-        // A part of a row, or whole rows.
+        // Some rows of blocks, or of a very wide picture a part of one.
         let [x, y] = self.at;
-        let rows = (pace.room / u64::from(width)).min(u64::from(height - y)) as u32;
-        let size =
-            if x > 0 || rows == 0 { [pace.room.min(u64::from(width - x)) as u32, 1] } else { [width, rows] };
-        self.at = if x + size[0] < width { [x + size[0], y] } else { [0, y + size[1]] };
+        let columns = (self.capacity / u64::from(BLOCK[1])).min(u64::from(width - x)) as u32;
+        let rows = (room / u64::from(columns)) as u32 / BLOCK[1] * BLOCK[1];
+        let rows = if columns < width { BLOCK[1] } else { rows.max(BLOCK[1]) }.min(height - y);
+        self.at = if x + columns < width { [x + columns, y] } else { [0, y + rows] };
         if self.at[1] == height {
             self.at = [0, 0];
             self.samples.start += 1;
         }
-        Some(Slice { first_pixel: [x, y], size, samples: first..first + 1 })
+        Some(Slice { first_pixel: [x, y], size: [columns, rows], samples: first..first + 1 })
     }
 }
 
@@ -101,18 +106,19 @@ mod tests {
     /// Every sample of every pixel once, whatever the pace.
     #[test]
     fn slices_cover_all_once() {
-        for (size, samples, rooms) in [
-            ([7, 5], 0..3, vec![1]),
-            ([7, 5], 2..9, vec![3, 10, 35, 36, 1000]),
-            ([64, 64], 5..6, vec![4096]),
-            ([33, 9], 0..40, vec![40, 100, 297, 2970, 1]),
-            ([1, 1], 0..1, vec![1]),
+        for (size, samples, rooms, capacity) in [
+            ([7, 5], 0..3, vec![1], 4096),
+            ([7, 5], 2..9, vec![3, 10, 35, 64, 1000], 4096),
+            ([64, 64], 5..6, vec![4096], 4096),
+            ([33, 9], 0..40, vec![40, 100, 480, 4800, 1], 4096),
+            ([3001, 9], 0..2, vec![1, 4096, 1 << 20], 4096),
+            ([1, 1], 0..1, vec![1], 4096),
         ] {
             let mut seen = vec![0u32; size[0] as usize * size[1] as usize * samples.len()];
-            let mut slices = Slices::new(&Film::new(size[0], size[1]), samples.clone());
+            let mut slices = Slices::new(&Film::new(size[0], size[1]), samples.clone(), capacity);
             let mut rooms = rooms.into_iter().cycle();
             while let Some(s) = slices.next(&Pace { room: rooms.next().unwrap() }) {
-                assert!(s.count() > 0);
+                assert!(s.count() > 0 && paths_per_sample(s.size) * s.samples.len() as u64 <= capacity);
                 for index in s.samples.clone() {
                     for y in s.first_pixel[1]..s.first_pixel[1] + s.size[1] {
                         for x in s.first_pixel[0]..s.first_pixel[0] + s.size[0] {
@@ -124,8 +130,8 @@ mod tests {
             }
             assert!(seen.iter().all(|&n| n == 1), "{size:?} {samples:?}");
         }
-        assert_eq!(Slices::new(&Film::new(0, 5), 0..9).next(&Pace::default()), None);
-        assert_eq!(Slices::new(&Film::new(5, 5), 3..3).next(&Pace::default()), None);
+        assert_eq!(Slices::new(&Film::new(0, 5), 0..9, 4096).next(&Pace::default()), None);
+        assert_eq!(Slices::new(&Film::new(5, 5), 3..3, 4096).next(&Pace::default()), None);
     }
 
     #[test]

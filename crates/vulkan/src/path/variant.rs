@@ -12,7 +12,24 @@ use lumbre_scene::compiled::material::{LobesRecord, MaterialRecord, TextureUse, 
 
 /// What a scene has.
 #[derive(Clone, Debug)]
-pub(super) struct SceneConstants(Specialisation);
+pub(super) struct SceneConstants {
+    constants: Specialisation,
+    /// Which passes it needs.
+    pub(super) needs: Needs,
+}
+
+/// Passes and memory that only some scenes need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Needs {
+    /// Lights of each group: far, near.
+    pub(super) lights: [bool; 2],
+    /// Surfaces that let light through.
+    pub(super) transmission: bool,
+    /// Solids that paths enter.
+    pub(super) solids: bool,
+    /// Shadow catchers.
+    pub(super) catchers: bool,
+}
 
 impl SceneConstants {
     /// Looks the scene over.
@@ -28,12 +45,19 @@ impl SceneConstants {
             .bool(19, any(|l| l.diffuse_roughness > 0.0))
             .bool(20, any(|l| l.diffuse_transmission > 0.0))
             .bool(61, !scene.lobes.is_empty());
-        SceneConstants(constants)
+        let material = |has: fn(&MaterialRecord) -> bool| scene.materials.iter().any(has);
+        let needs = Needs {
+            lights: [scene.has_lights(LightGroup::Far), scene.has_lights(LightGroup::Near)],
+            transmission: material(|m| m.transmission > 0.0),
+            solids: material(|m| m.has(flag::SOLID)),
+            catchers: material(|m| m.has(flag::SHADOW_CATCHER)),
+        };
+        SceneConstants { constants, needs }
     }
 
     /// With the settings of a render.
     pub(super) fn with(&self, settings: &RenderSettings) -> Specialisation {
-        settings_constants(self.0.clone(), settings)
+        settings_constants(self.constants.clone(), settings)
     }
 }
 

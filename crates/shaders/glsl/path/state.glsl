@@ -1,0 +1,292 @@
+// Paths under way, as they lie in memory between passes: four numbers of all paths after one another, then the next four. A path keeps its
+// place from the camera to the film; lists say which paths go where.
+#ifndef PATH_STATE_GLSL
+#define PATH_STATE_GLSL
+
+#include "path/push.glsl"
+#include "path/hit.glsl"
+#include "ray.glsl"
+#include "sampler.glsl"
+#include "bsdf/features.glsl"
+#include "variants.glsl"
+
+// A path under way.
+struct Path {
+    Sampler smp;
+    Ray ray;
+    Spectrum radiance;
+    // Throughput.
+    Spectrum beta;
+    // Radiance scaling by refraction that is part of `beta`.
+    float eta_scale;
+    MediumStack media;
+    // The wavelength that it has taken, nm; 0: none yet.
+    float wavelength;
+    // The last vertex that scattered (thin walls passed straight do not count).
+    vec3 arrival_p;
+    // Density of the direction there, sr⁻¹; negative where light sampling could not have found the light (camera, delta lobes).
+    float arrival_pdf;
+    // Since a vertex with a density, the path has done nothing but refract through smooth solids.
+    bool through_solid;
+    // So far it has only met delta lobes: what it finds is seen, not lit by.
+    bool seen_by_camera;
+    // So far it is a straight line from the camera.
+    bool straight;
+    // Shadow catchers that it has passed.
+    uint caught;
+    // Length of the rays up to the last of these, metres.
+    float travelled;
+    // How much the background is covered.
+    float alpha;
+    // Scattering events so far.
+    uint depth;
+    // Shadow rays whose light has not been added yet: bits ASKED_….
+    uint asked;
+};
+
+// A shadow ray that waits to be traced, with what it will bring.
+struct PendingLight {
+    Ray ray;
+    // Throughput times what the surface makes of the light, over its density.
+    Spectrum contribution;
+    // Weight against scattering, unless it comes straight through a solid.
+    float mis_weight;
+    // Probability with which it was asked for.
+    float prob;
+    // Solids let it through straight.
+    bool solids_pass;
+    // The media in which it begins, and the wavelength of its light, nm; 0: all.
+    MediumStack media;
+    float wavelength;
+};
+
+// Places of the numbers.
+const uint STATE_RAY = 0u;
+const uint STATE_DIRECTION = 1u;
+const uint STATE_BETA = 2u;
+const uint STATE_ARRIVAL = 3u;
+const uint STATE_RADIANCE = 4u;
+const uint STATE_HIT = 5u;
+const uint STATE_BITS = 6u;
+const uint STATE_ALBEDO = 7u;
+const uint STATE_NORMAL = 8u;
+const uint STATE_POSITION = 9u;
+const uint STATE_SHADOW = 10u; // four for each group of lights, for either parity
+const uint STATE_MEDIA = 26u; // two
+const uint STATE_SHADOW_MEDIA = 28u; // two for each group of lights, for either parity
+const uint STATE_QUADS_PLAIN = 26u;
+const uint STATE_QUADS = 36u;
+
+// Shadow rays of a path lie apart by the parity of the step that asked for them: those of one step may still be under way through glass
+// while the next asks for others. What they bring is added two steps later, or with the film.
+uint pending_slot(uint parity, uint group) {
+    return 2u * parity + group;
+}
+
+uint asked_bit(uint parity, uint group) {
+    return 1u << pending_slot(parity, group);
+}
+
+#define STATE(place, id) push.view.state.at[(place) * push.view.capacity + (id)]
+
+// Pixels are taken in blocks of 8 x 4, so that neighbours in a list are neighbours in the picture.
+const uvec2 BLOCK = uvec2(8u, 4u);
+
+uvec2 path_blocks() {
+    return (push.size + BLOCK - 1u) / BLOCK;
+}
+
+// Paths of one sample of the slice; those of blocks that reach outside stand still.
+uint paths_per_sample() {
+    uvec2 blocks = path_blocks();
+    return blocks.x * blocks.y * BLOCK.x * BLOCK.y;
+}
+
+// The pixel of a path within the slice; it may lie outside.
+uvec2 path_pixel(uint id) {
+    uint place = id % paths_per_sample();
+    uint block = place / (BLOCK.x * BLOCK.y);
+    uint within = place % (BLOCK.x * BLOCK.y);
+    uint columns = path_blocks().x;
+    return uvec2(block % columns, block / columns) * BLOCK + uvec2(within % BLOCK.x, within / BLOCK.x);
+}
+
+uint path_sample(uint id) {
+    return push.first_sample + id / paths_per_sample();
+}
+
+Sampler path_sampler(uint id) {
+    uvec2 pixel = push.view.origin + push.first_pixel + path_pixel(id);
+    return sampler_new(push.view.seed, push.view.frame, pixel, path_sample(id));
+}
+
+// The path at `index` of a list; NONE beyond its end: launches may be larger than lists.
+uint queue_get(uint queue, uint index) {
+    if (index >= push.view.heads.at[queue].count) {
+        return NONE;
+    }
+    return push.view.queues.at[queue * push.view.capacity + index];
+}
+
+// Adds a path to a list, where few do.
+void queue_add(uint queue, uint id) {
+    QueueHeads heads = push.view.heads;
+    Queues queues = push.view.queues;
+    uint place = atomicAdd(heads.at[queue].count, 1u);
+    queues.at[queue * push.view.capacity + place] = id;
+}
+
+void media_store(uint place, uint id, MediumStack media) {
+    Quads state = push.view.state;
+    state.at[place * push.view.capacity + id] = uintBitsToFloat(media.material);
+    state.at[(place + 1u) * push.view.capacity + id] = media.ior;
+}
+
+MediumStack media_load(uint place, uint id) {
+    return MediumStack(floatBitsToUint(STATE(place, id)), STATE(place + 1u, id));
+}
+
+// Light that scattered this many times on its way to the camera, within the bound that the settings set.
+Spectrum path_clamped(Spectrum contribution, uint scattered) {
+    if (!CLAMPED || scattered <= 1u) {
+        return contribution;
+    }
+    float largest = max_component(contribution);
+    float most = push.view.clamp_to;
+    return largest > most ? contribution * (most / largest) : contribution;
+}
+
+// All but the hit and the planes of the first one.
+void path_store(uint id, Path path) {
+    Quads state = push.view.state;
+    uint n = push.view.capacity;
+    uint bits = (path.through_solid ? 1u : 0u) | (path.seen_by_camera ? 2u : 0u) | (path.straight ? 4u : 0u)
+        | (path.caught << 3) | (path.asked << 10) | (path.depth << 14);
+    state.at[STATE_RAY * n + id] = vec4(path.ray.origin, 0.0);
+    state.at[STATE_DIRECTION * n + id] = vec4(path.ray.dir, path.arrival_pdf);
+    state.at[STATE_BETA * n + id] = vec4(path.beta, path.travelled);
+    state.at[STATE_ARRIVAL * n + id] = vec4(path.arrival_p, path.eta_scale);
+    state.at[STATE_RADIANCE * n + id] = vec4(path.radiance, path.alpha);
+    state.at[STATE_BITS * n + id] = vec4(uintBitsToFloat(bits), path.wavelength, 0.0, 0.0);
+    if (HAS_SOLID) {
+        media_store(STATE_MEDIA, id, path.media);
+    }
+}
+
+// What shadow rays asked for by steps of a parity have brought.
+Spectrum pending_brought(uint id, uint asked, uint parity) {
+    Spectrum brought = vec3(0.0);
+    for (uint group = 0u; group < 2u; ++group) {
+        if ((asked & asked_bit(parity, group)) != 0u) {
+            brought += STATE(STATE_SHADOW + 4u * pending_slot(parity, group) + 2u, id).xyz;
+        }
+    }
+    return brought;
+}
+
+uint path_load_asked(uint id) {
+    return (floatBitsToUint(STATE(STATE_BITS, id).x) >> 10) & 15u;
+}
+
+Path path_load(uint id) {
+    vec4 ray = STATE(STATE_RAY, id);
+    vec4 direction = STATE(STATE_DIRECTION, id);
+    vec4 beta = STATE(STATE_BETA, id);
+    vec4 arrival = STATE(STATE_ARRIVAL, id);
+    vec4 radiance = STATE(STATE_RADIANCE, id);
+    vec4 more = STATE(STATE_BITS, id);
+    uint bits = floatBitsToUint(more.x);
+    Path path;
+    path.smp = path_sampler(id);
+    path.ray = ray_new(ray.xyz, direction.xyz, 0.0);
+    path.arrival_pdf = direction.w;
+    path.beta = beta.xyz;
+    path.travelled = beta.w;
+    path.arrival_p = arrival.xyz;
+    path.eta_scale = arrival.w;
+    path.alpha = radiance.w;
+    path.wavelength = more.y;
+    path.through_solid = (bits & 1u) != 0u;
+    path.seen_by_camera = (bits & 2u) != 0u;
+    path.straight = (bits & 4u) != 0u;
+    path.caught = (bits >> 3) & 127u;
+    path.depth = bits >> 14;
+    path.asked = (bits >> 10) & 15u;
+    path.radiance = radiance.xyz + pending_brought(id, path.asked, push.parity);
+    path.asked &= ~(asked_bit(push.parity, 0u) | asked_bit(push.parity, 1u));
+    path.media = medium_stack_empty();
+    if (HAS_SOLID) {
+        path.media = media_load(STATE_MEDIA, id);
+    }
+    return path;
+}
+
+uint path_load_depth(uint id) {
+    return floatBitsToUint(STATE(STATE_BITS, id).x) >> 14;
+}
+
+// What a path's ray has met; `geometry` is NONE for a miss.
+void hit_store(uint id, HitPayload hit) {
+    Quads state = push.view.state;
+    uint n = push.view.capacity;
+    state.at[STATE_HIT * n + id] = vec4(uintBitsToFloat(uvec2(hit.geometry, hit.primitive)), hit.b);
+    state.at[STATE_RAY * n + id].w = hit.t;
+}
+
+// False for a miss.
+bool hit_load(uint id, out Hit hit) {
+    vec4 met = STATE(STATE_HIT, id);
+    uint geometry = floatBitsToUint(met.x);
+    if (geometry == NONE) {
+        return false;
+    }
+    hit = hit_of(geometry, floatBitsToUint(met.y), met.zw, STATE(STATE_RAY, id).w);
+    return true;
+}
+
+// The depth of the path before it scattered, for shadow rays: what their verdicts and bounds depend on.
+void pending_store(uint group, uint id, PendingLight light, uint depth) {
+    Quads state = push.view.state;
+    uint n = push.view.capacity;
+    uint slot = pending_slot(push.parity, group);
+    uint place = STATE_SHADOW + 4u * slot;
+    uint bits = (light.solids_pass ? 1u : 0u) | (depth << 1);
+    state.at[place * n + id] = vec4(light.ray.origin, light.ray.t_max);
+    state.at[(place + 1u) * n + id] = vec4(light.ray.dir, uintBitsToFloat(bits));
+    state.at[(place + 2u) * n + id] = vec4(light.contribution, light.mis_weight);
+    state.at[(place + 3u) * n + id] = vec4(light.prob, light.wavelength, 0.0, 0.0);
+    if (HAS_SOLID) {
+        media_store(STATE_SHADOW_MEDIA + 2u * slot, id, light.media);
+    }
+}
+
+// What a shadow ray has brought, in the place of what it would bring.
+void pending_arrived(uint group, uint id, Spectrum arrived) {
+    Quads state = push.view.state;
+    state.at[(STATE_SHADOW + 4u * pending_slot(push.parity, group) + 2u) * push.view.capacity + id] = vec4(arrived, 0.0);
+}
+
+PendingLight pending_load(uint group, uint id, out uint depth) {
+    uint slot = pending_slot(push.parity, group);
+    uint place = STATE_SHADOW + 4u * slot;
+    vec4 ray = STATE(place, id);
+    vec4 direction = STATE(place + 1u, id);
+    vec4 contribution = STATE(place + 2u, id);
+    vec4 more = STATE(place + 3u, id);
+    uint bits = floatBitsToUint(direction.w);
+    depth = bits >> 1;
+    PendingLight light;
+    light.ray = Ray(ray.xyz, direction.xyz, 0.0, ray.w, 0.0);
+    light.contribution = contribution.xyz;
+    light.mis_weight = contribution.w;
+    light.prob = more.x;
+    light.wavelength = more.y;
+    light.solids_pass = (bits & 1u) != 0u;
+    light.media = medium_stack_empty();
+    if (HAS_SOLID) {
+        light.media = media_load(STATE_SHADOW_MEDIA + 2u * slot, id);
+    }
+    return light;
+}
+
+#endif
