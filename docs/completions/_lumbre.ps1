@@ -175,7 +175,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('--depths', '--depths', [CompletionResultType]::ParameterName, 'Depths, each the most scattering events on a path. [default: those of the table, else --max-depth]')
             [CompletionResult]::new('--samples', '--samples', [CompletionResultType]::ParameterName, 'Samples of each pixel in a frame. [default: those of the table, else 1]')
             [CompletionResult]::new('--frames', '--frames', [CompletionResultType]::ParameterName, 'Frames that count')
-            [CompletionResult]::new('--warm-up', '--warm-up', [CompletionResultType]::ParameterName, 'Frames before them')
+            [CompletionResult]::new('--warm-up', '--warm-up', [CompletionResultType]::ParameterName, 'Frames before them; frames of the first 0.7 s do not count in any case')
             [CompletionResult]::new('--budget', '--budget', [CompletionResultType]::ParameterName, 'Most time for the frames of one figure; one frame is always taken')
             [CompletionResult]::new('--spp', '--spp', [CompletionResultType]::ParameterName, 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]')
             [CompletionResult]::new('--time', '--time', [CompletionResultType]::ParameterName, 'Time for each device in `equal-time`')

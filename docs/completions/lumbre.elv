@@ -166,7 +166,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand --depths 'Depths, each the most scattering events on a path. [default: those of the table, else --max-depth]'
             cand --samples 'Samples of each pixel in a frame. [default: those of the table, else 1]'
             cand --frames 'Frames that count'
-            cand --warm-up 'Frames before them'
+            cand --warm-up 'Frames before them; frames of the first 0.7 s do not count in any case'
             cand --budget 'Most time for the frames of one figure; one frame is always taken'
             cand --spp 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]'
             cand --time 'Time for each device in `equal-time`'

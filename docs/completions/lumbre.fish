@@ -164,7 +164,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sizes -d 'Sizes 
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l depths -d 'Depths, each the most scattering events on a path. [default: those of the table, else --max-depth]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l samples -d 'Samples of each pixel in a frame. [default: those of the table, else 1]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l frames -d 'Frames that count' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l warm-up -d 'Frames before them' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l warm-up -d 'Frames before them; frames of the first 0.7 s do not count in any case' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l budget -d 'Most time for the frames of one figure; one frame is always taken' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l spp -d 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l time -d 'Time for each device in `equal-time`' -r
