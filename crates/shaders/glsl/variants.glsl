@@ -24,9 +24,6 @@ layout(constant_id = 59) const bool HAS_DISPERSION = true;
 layout(constant_id = 60) const bool HAS_TRANSMISSION = true;
 layout(constant_id = 61) const bool HAS_LOBES = true;
 layout(constant_id = 62) const bool HAS_UNLIT = true;
-// The device decodes the sRGB curve of textures.
-layout(constant_id = 63) const bool DEVICE_SRGB = false;
-
 // Values of TRANSMISSIVE_SHADOWS.
 const uint SHADOWS_AUTO = 0u;
 const uint SHADOWS_PHYSICAL = 1u;

@@ -134,8 +134,6 @@ pub const RAY_SHADOW: u32 = 1;
 pub mod binding {
     /// The top-level acceleration structure.
     pub const TLAS: u32 = 0;
-    /// Textures whose colours are coded by the sRGB curve: as many as the scene has, element = texture.
-    pub const TEXTURES_SRGB: u32 = 1;
-    /// The same textures read as linear values.
-    pub const TEXTURES_LINEAR: u32 = 2;
+    /// Textures: as many as the scene has.
+    pub const TEXTURES: u32 = 1;
 }

@@ -35,7 +35,7 @@ pub struct Tables {
     pub wavelength_response: [Rgb; wavelength::NODES],
     /// [`wavelength::Table::cdf`].
     pub wavelength_cdf: [f32; wavelength::NODES],
-    /// [`Filter::distances`] of [`TABULATED_FILTERS`].
+    /// [`Filter::distances`] of the Gaussian and the Blackman-Harris filter.
     pub filter_distance: [[f32; filter::TABLE + 1]; TABULATED_FILTERS.len()],
     /// [`srgb_decode_table`].
     pub srgb_decode: [f32; 256],

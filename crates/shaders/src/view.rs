@@ -5,7 +5,7 @@ use crate::medium::MediumStackRecord;
 use bytemuck::{Pod, Zeroable};
 
 /// Lists of paths.
-pub const QUEUES: usize = 9;
+pub const QUEUES: usize = 11;
 /// Numbers of four floats that a path takes: without solids, and with them.
 pub const STATE_QUADS: [u64; 2] = [26, 36];
 /// Side of the blocks in which pixels are taken.
@@ -17,10 +17,10 @@ pub mod queue {
     pub const PATHS: u32 = 0;
     /// Shadow rays to the far lights and to the near ones, of paths of either list: four lists.
     pub const SHADOW: u32 = 2;
-    /// Shadow rays that meet what lets light through, to far and to near lights.
+    /// Those of them that meet what lets light through: four lists.
     pub const GLASS: u32 = 6;
     /// Paths that meet shadow catchers.
-    pub const CATCHERS: u32 = 8;
+    pub const CATCHERS: u32 = 10;
 }
 
 /// A list of paths: its length, as an indirect launch of one ray each (`VkTraceRaysIndirectCommandKHR`).

@@ -41,7 +41,7 @@ pub struct Planes {
     pub albedo: usize,
     /// Normal, by [`Bounds::color`].
     pub normal: usize,
-    /// Position, by 1e-4 of the distance.
+    /// Position, by 1e-4 of the distance and [`Bounds::position`].
     pub position: usize,
     /// Distance, by 1e-4 of itself.
     pub depth: usize,
@@ -60,23 +60,32 @@ pub struct Bounds {
     pub z: f64,
     /// Largest difference of albedos and of normals of first hits.
     pub color: f32,
+    /// Largest difference of positions beyond 1e-4 of the distance, metres.
+    pub position: f32,
     /// Largest share of paths that may differ in a plane: those that pass an edge at a rounding's distance.
     pub planes: f64,
 }
 
 impl Bounds {
     /// For scenes without textures.
-    pub const PLAIN: Bounds = Bounds { close: 0.99, bias: 1e-3, z: 4.5, color: 1e-3, planes: 5e-3 };
+    pub const PLAIN: Bounds =
+        Bounds { close: 0.99, bias: 1e-3, z: 4.5, color: 1e-3, position: 0.0, planes: 5e-3 };
     /// For scenes with textures, which devices filter with fewer digits: the weights of texels have eight bits.
     pub const TEXTURED: Bounds = Bounds { close: 0.95, color: 1e-2, ..Bounds::PLAIN };
+
+    /// For scenes of this radius in metres, some of whose triangles are as large: hit points come from barycentrics, which have 24 bits
+    /// however near the triangle is.
+    pub fn with_triangles_of(self, radius: f32) -> Bounds {
+        Bounds { position: 3e-7 * radius, ..self }
+    }
 }
 
 impl Paired {
-    /// Compares films that hold one sample of each pixel each: `pairs` in the order of their samples. `color`: see [`Bounds`].
+    /// Compares films that hold one sample of each pixel each: `pairs` in the order of their samples.
     ///
     /// # Panics
     /// If the films are not of the same size.
-    pub fn new(pairs: &[(Film, Film)], color: f32) -> Self {
+    pub fn new(pairs: &[(Film, Film)], bounds: &Bounds) -> Self {
         let Some((first, _)) = pairs.first() else { return Paired::default() };
         let pixels = first.pixels().len();
         let mut sums = vec![[[0.0f32; 3]; 2]; pixels];
@@ -88,7 +97,7 @@ impl Paired {
         let mut planes = Planes::default();
         for (a, b) in pairs {
             assert_eq!((a.width(), a.height()), (b.width(), b.height()), "films of different sizes");
-            a.pixels().iter().zip(b.pixels()).for_each(|(p, q)| planes.add(p, q, color));
+            a.pixels().iter().zip(b.pixels()).for_each(|(p, q)| planes.add(p, q, bounds));
             for (i, (p, q)) in a.radiance().iter().zip(b.radiance()).enumerate() {
                 let (p, q) = (p.to_array(), q.to_array());
                 forks += usize::from(!close(p, q, floor));
@@ -134,14 +143,15 @@ impl Paired {
 }
 
 impl Planes {
-    fn add(&mut self, p: &PixelSums, q: &PixelSums, color: f32) {
+    fn add(&mut self, p: &PixelSums, q: &PixelSums, bounds: &Bounds) {
         let apart = |p: [f32; 3], q: [f32; 3], most: f32| p.iter().zip(q).any(|(p, q)| (p - q).abs() > most);
         let [near, far] = [p.depth(), q.depth()];
         let hits = (near.is_finite(), far.is_finite());
         let most = 1e-4 * near.max(far);
-        self.albedo += usize::from(apart(p.albedo().to_array(), q.albedo().to_array(), color));
-        self.normal += usize::from(apart(p.normal(), q.normal(), color));
-        self.position += usize::from(hits.0 != hits.1 || apart(p.position(), q.position(), most));
+        self.albedo += usize::from(apart(p.albedo().to_array(), q.albedo().to_array(), bounds.color));
+        self.normal += usize::from(apart(p.normal(), q.normal(), bounds.color));
+        self.position +=
+            usize::from(hits.0 != hits.1 || apart(p.position(), q.position(), most + bounds.position));
         self.depth += usize::from(hits.0 != hits.1 || (hits.0 && (near - far).abs() > most));
         self.alpha += usize::from((p.alpha() - q.alpha()).abs() > 1e-3);
     }
@@ -201,7 +211,7 @@ mod tests {
 
     fn faults(value: impl Fn(u32) -> f32) -> usize {
         let pairs: Vec<_> = (0..4).map(|s| (film(|i| unit(i, s)), film(|i| unit(i, s) * value(i)))).collect();
-        Paired::new(&pairs, 1e-3).faults(&Bounds::PLAIN).len()
+        Paired::new(&pairs, &Bounds::PLAIN).faults(&Bounds::PLAIN).len()
     }
 
     #[test]
@@ -213,11 +223,14 @@ mod tests {
         assert_eq!(faults(|i| if i % 200 == 0 { 0.5 + unit(i, 9) } else { 1.0 }), 0);
         assert!(faults(|i| if i % 50 == 0 { 0.5 } else { 1.0 }) > 0);
         assert!(
-            !Paired::new(&[], 1e-3).faults(&Bounds::PLAIN).is_empty(),
+            !Paired::new(&[], &Bounds::PLAIN).faults(&Bounds::PLAIN).is_empty(),
             "nothing compared is no agreement"
         );
         let black = vec![(film(|_| 0.0), film(|_| 0.0))];
-        assert!(!Paired::new(&black, 1e-3).faults(&Bounds::PLAIN).is_empty(), "nor are black pictures");
+        assert!(
+            !Paired::new(&black, &Bounds::PLAIN).faults(&Bounds::PLAIN).is_empty(),
+            "nor are black pictures"
+        );
     }
 
     /// One film of first hits; `disturb` changes some of them.
@@ -256,14 +269,14 @@ mod tests {
                     }
                     sample.first_hit = Some(hit);
                 });
-                let paired = Paired::new(&[(hits(|_, _| ()), other)], 1e-3);
+                let paired = Paired::new(&[(hits(|_, _| ()), other)], &Bounds::PLAIN);
                 let faults = paired.faults(&Bounds::PLAIN);
                 assert_eq!(faults.len(), usize::from(found), "{plane}: {faults:?}");
                 assert!(faults.iter().all(|f| f.starts_with(plane)), "{plane}: {faults:?}");
             }
         }
         let missed = hits(|i, sample| sample.first_hit = sample.first_hit.filter(|_| i % 100 > 0));
-        let paired = Paired::new(&[(hits(|_, _| ()), missed)], 1e-3);
+        let paired = Paired::new(&[(hits(|_, _| ()), missed)], &Bounds::PLAIN);
         assert_eq!(paired.faults(&Bounds::PLAIN).len(), 4, "a hit on one side only: all but alpha");
     }
 }

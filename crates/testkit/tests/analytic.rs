@@ -9,7 +9,7 @@ use lumbre_core::settings::RenderSettings;
 use lumbre_scene::{
     Background, Environment, Light, LightId, LightKind, Material, Mesh, Node, Primitive, Scene, Volume,
 };
-use lumbre_testkit::measure::{analytic_settings, film, grey, mean, pinhole, prepare, radiance};
+use lumbre_testkit::measure::{OnAll, analytic_settings, film, grey, mean, pinhole, prepare};
 use lumbre_testkit::shapes::{
     add, bumpy_icosphere, cuboid, disc, icosphere, inside_out, rectangle, smooth_icosphere,
 };
@@ -35,12 +35,12 @@ fn variants(base: RenderSettings) -> [(&'static str, RenderSettings); 4] {
 /// Checks a scene in every variant. Lights that cannot be hit are only found with light sampling.
 fn check(scene: &Scene, camera: Camera, base: RenderSettings, expected: f64, what: &str) {
     let has_delta_lights = !scene.lights.is_empty();
-    let backend = prepare(scene);
+    let on_all = OnAll::new(scene);
     for (name, settings) in variants(base) {
         if has_delta_lights && !settings.light_sampling {
             continue;
         }
-        radiance(&backend, camera, settings).assert_is(expected, GEOMETRY, &format!("{what}, {name}"));
+        on_all.assert_radiance(camera, settings, expected, GEOMETRY, &format!("{what}, {name}"));
     }
 }
 

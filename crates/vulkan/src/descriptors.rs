@@ -1,4 +1,4 @@
-//! The one set of descriptors: the top-level structure and two arrays of textures (`lumbre_shaders::layout::binding`).
+//! The one set of descriptors: the top-level structure and an array of textures (`lumbre_shaders::layout::binding`).
 
 use crate::error::{Called, VulkanError};
 use crate::gpu::Gpu;
@@ -27,7 +27,7 @@ impl Descriptors {
     pub(crate) fn new(scene: &SceneOnGpu) -> Result<Self, VulkanError> {
         let gpu = scene.gpu().clone();
         // An array has one element at least, bound or not.
-        let textures = scene.textures.sampled.len().max(1) as u32;
+        let textures = scene.textures.views.len().max(1) as u32;
         let mut descriptors = Descriptors {
             layout: vk::DescriptorSetLayout::null(),
             pool: vk::DescriptorPool::null(),
@@ -48,13 +48,9 @@ impl Descriptors {
                 .descriptor_count(count)
                 .stage_flags(STAGES)
         };
-        let image = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+        let image = vk::DescriptorType::SAMPLED_IMAGE;
         let structure = vk::DescriptorType::ACCELERATION_STRUCTURE_KHR;
-        let bindings = [
-            binding(binding::TLAS, structure, 1),
-            binding(binding::TEXTURES_SRGB, image, textures),
-            binding(binding::TEXTURES_LINEAR, image, textures),
-        ];
+        let bindings = [binding(binding::TLAS, structure, 1), binding(binding::TEXTURES, image, textures)];
         // With update after bind a device offers far more textures.
         let (array, layout, pool) = if self.gpu.features().update_after_bind {
             (
@@ -69,7 +65,7 @@ impl Descriptors {
                 vk::DescriptorPoolCreateFlags::empty(),
             )
         };
-        let flags = [vk::DescriptorBindingFlags::empty(), array, array];
+        let flags = [vk::DescriptorBindingFlags::empty(), array];
         let mut flags = vk::DescriptorSetLayoutBindingFlagsCreateInfo::default().binding_flags(&flags);
         let create = vk::DescriptorSetLayoutCreateInfo::default()
             .flags(layout)
@@ -77,7 +73,7 @@ impl Descriptors {
             .push_next(&mut flags);
         let sizes = [
             vk::DescriptorPoolSize { ty: structure, descriptor_count: 1 },
-            vk::DescriptorPoolSize { ty: image, descriptor_count: 2 * textures },
+            vk::DescriptorPoolSize { ty: image, descriptor_count: textures },
         ];
         let create_pool = vk::DescriptorPoolCreateInfo::default().flags(pool).max_sets(1).pool_sizes(&sizes);
         // SAFETY: a live device; what is made is destroyed by `drop`.
@@ -97,26 +93,21 @@ impl Descriptors {
         let structures = [scene.accel.top.raw];
         let mut top =
             vk::WriteDescriptorSetAccelerationStructureKHR::default().acceleration_structures(&structures);
-        let image = |view, sampler| {
+        let image = |&view: &vk::ImageView| {
             vk::DescriptorImageInfo::default()
                 .image_view(view)
-                .sampler(sampler)
                 .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
         };
-        let sampled = &scene.textures.sampled;
-        let srgb: Vec<_> = sampled.iter().map(|s| image(s.srgb, s.sampler)).collect();
-        let linear: Vec<_> = sampled.iter().map(|s| image(s.linear, s.sampler)).collect();
+        let images: Vec<_> = scene.textures.views.iter().map(image).collect();
         let write = |binding| vk::WriteDescriptorSet::default().dst_set(self.set).dst_binding(binding);
-        let images = |at, infos| {
-            write(at).descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER).image_info(infos)
-        };
         let structure = write(binding::TLAS)
             .descriptor_type(vk::DescriptorType::ACCELERATION_STRUCTURE_KHR)
             .descriptor_count(1)
             .push_next(&mut top);
         let mut writes = vec![structure];
-        if !sampled.is_empty() {
-            writes.extend([images(binding::TEXTURES_SRGB, &srgb), images(binding::TEXTURES_LINEAR, &linear)]);
+        if !images.is_empty() {
+            let kind = vk::DescriptorType::SAMPLED_IMAGE;
+            writes.push(write(binding::TEXTURES).descriptor_type(kind).image_info(&images));
         }
         // SAFETY: the set is new; what is written lives as long as the scene.
         unsafe { self.gpu.0.raw.update_descriptor_sets(&writes, &[]) };

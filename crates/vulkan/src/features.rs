@@ -137,7 +137,6 @@ impl Features {
             v12: vk::PhysicalDeviceVulkan12Features::default()
                 .buffer_device_address(true)
                 .scalar_block_layout(true)
-                .descriptor_indexing(true)
                 .runtime_descriptor_array(true)
                 .shader_sampled_image_array_non_uniform_indexing(true)
                 .descriptor_binding_partially_bound(true)

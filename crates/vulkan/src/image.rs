@@ -1,4 +1,4 @@
-//! Images that shaders sample, read as sRGB or as linear values.
+//! Images whose texels shaders read.
 
 use crate::buffer::Buffer;
 use crate::commands::Commands;
@@ -9,16 +9,15 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::Allocation;
 
-/// An RGBA8 image of one level, with a view for each way to read its colours.
+/// An RGBA8 image of one level.
 pub(crate) struct Image {
     gpu: Gpu,
     raw: vk::Image,
     allocation: Option<Allocation>,
-    pub(crate) srgb: vk::ImageView,
-    pub(crate) linear: vk::ImageView,
+    pub(crate) view: vk::ImageView,
 }
 
-const FORMATS: [vk::Format; 2] = [vk::Format::R8G8B8A8_SRGB, vk::Format::R8G8B8A8_UNORM];
+const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
 const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     aspect_mask: vk::ImageAspectFlags::COLOR,
     base_mip_level: 0,
@@ -38,15 +37,13 @@ impl Image {
         let gpu = upload.gpu().clone();
         let mut image = Self::empty(&gpu, name, [width, height])?;
         let device = &gpu.0.raw;
-        for (i, view) in [&mut image.srgb, &mut image.linear].into_iter().enumerate() {
-            let create = vk::ImageViewCreateInfo::default()
-                .image(image.raw)
-                .view_type(vk::ImageViewType::TYPE_2D)
-                .format(FORMATS[i])
-                .subresource_range(COLOR);
-            // SAFETY: a live image that allows both formats.
-            *view = unsafe { device.create_image_view(&create, None) }.called("vkCreateImageView")?;
-        }
+        let create = vk::ImageViewCreateInfo::default()
+            .image(image.raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(FORMAT)
+            .subresource_range(COLOR);
+        // SAFETY: a live image.
+        image.view = unsafe { device.create_image_view(&create, None) }.called("vkCreateImageView")?;
         // A row is far below a chunk: sides are bounded.
         let rows = (CHUNK / (4 * u64::from(width))).max(1) as usize;
         for (i, some) in texels.chunks(rows * width as usize).enumerate() {
@@ -75,22 +72,18 @@ impl Image {
 
     /// Without content and views.
     fn empty(gpu: &Gpu, name: &str, [width, height]: [u32; 2]) -> Result<Self, VulkanError> {
-        let mut formats = vk::ImageFormatListCreateInfo::default().view_formats(&FORMATS);
         let create = vk::ImageCreateInfo::default()
-            .flags(vk::ImageCreateFlags::MUTABLE_FORMAT)
             .image_type(vk::ImageType::TYPE_2D)
-            .format(FORMATS[0])
+            .format(FORMAT)
             .extent(vk::Extent3D { width, height, depth: 1 })
             .mip_levels(1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST)
-            .push_next(&mut formats);
+            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
         let device = &gpu.0.raw;
         // SAFETY: a live device; what is made is destroyed by `drop`.
         let raw = unsafe { device.create_image(&create, None) }.called("vkCreateImage")?;
-        let null = vk::ImageView::null();
-        let mut image = Image { gpu: gpu.clone(), raw, allocation: None, srgb: null, linear: null };
+        let mut image = Image { gpu: gpu.clone(), raw, allocation: None, view: vk::ImageView::null() };
         // SAFETY: the image is new; the memory is bound once and lives as long.
         let requirements = unsafe { device.get_image_memory_requirements(raw) };
         let allocation = gpu.0.memory.allocate(name, requirements, MemoryLocation::GpuOnly, false)?;
@@ -137,45 +130,14 @@ impl Image {
 
 impl Drop for Image {
     fn drop(&mut self) {
-        let (raw, views, allocation) = (self.raw, [self.srgb, self.linear], self.allocation.take());
+        let (raw, view, allocation) = (self.raw, self.view, self.allocation.take());
         self.gpu.0.discard(move |gpu| {
-            // SAFETY: nothing that uses it is under way; null views are ignored.
+            // SAFETY: nothing that uses it is under way; a null view is ignored.
             unsafe {
-                views.into_iter().for_each(|view| gpu.raw.destroy_image_view(view, None));
+                gpu.raw.destroy_image_view(view, None);
                 gpu.raw.destroy_image(raw, None);
             }
             allocation.into_iter().for_each(|a| gpu.memory.free(a));
         });
-    }
-}
-
-/// A sampler, one for each way to wrap and filter.
-pub(crate) struct Sampler {
-    gpu: Gpu,
-    pub(crate) raw: vk::Sampler,
-}
-
-impl Sampler {
-    pub(crate) fn new(
-        gpu: &Gpu,
-        wrap: [vk::SamplerAddressMode; 2],
-        filter: vk::Filter,
-    ) -> Result<Self, VulkanError> {
-        let create = vk::SamplerCreateInfo::default()
-            .mag_filter(filter)
-            .min_filter(filter)
-            .address_mode_u(wrap[0])
-            .address_mode_v(wrap[1]);
-        // SAFETY: a live device.
-        let raw = unsafe { gpu.0.raw.create_sampler(&create, None) }.called("vkCreateSampler")?;
-        Ok(Sampler { gpu: gpu.clone(), raw })
-    }
-}
-
-impl Drop for Sampler {
-    fn drop(&mut self) {
-        let raw = self.raw;
-        // SAFETY: nothing that uses it is under way.
-        self.gpu.0.discard(move |gpu| unsafe { gpu.raw.destroy_sampler(raw, None) });
     }
 }

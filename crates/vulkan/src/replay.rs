@@ -171,17 +171,12 @@ impl<'a> Replay<'a> {
 }
 
 impl SceneOnGpu {
-    /// What textures hold at some places, their colours decoded by the device or by a table (`DEVICE_SRGB` of variants.glsl): for tests.
+    /// What textures hold at some places: for tests.
     ///
     /// # Errors
     /// If the driver refuses the pipeline, memory is out, or the device is lost.
-    pub fn look_up(
-        &self,
-        places: &[TextureQuery],
-        by_device: bool,
-    ) -> Result<Vec<TextureAnswer>, VulkanError> {
-        // Its id in variants.glsl.
-        let constants = Specialisation::new().bool(63, by_device);
+    pub fn look_up(&self, places: &[TextureQuery]) -> Result<Vec<TextureAnswer>, VulkanError> {
+        let constants = Specialisation::new();
         let cache = PipelineCache::open_in(self.gpu(), None);
         let mut replay = Replay::with(self, replay::TEXTURE_RGEN, &constants, &cache)?;
         let mut upload = Upload::new(self.gpu());

@@ -5,7 +5,7 @@ use lumbre::core::settings::View;
 use lumbre::cpu::CpuBackend;
 use lumbre::cpu::observer::{PathEvent, PathObserver};
 use lumbre::{Backend, Frames, RenderError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How to measure.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +34,9 @@ pub(super) struct Figures {
     pub(super) passes: Vec<(String, f64)>,
 }
 
+/// Frames before this time do not count either.
+const CLOCK_RISES: Duration = Duration::from_millis(700);
+
 impl Plan {
     /// As the flags say.
     pub(super) fn of(args: &BenchArgs) -> Self {
@@ -48,7 +51,12 @@ impl Plan {
         size: [u32; 2],
         spp: u32,
     ) -> Result<Figures, RenderError> {
-        let warm = backend.frames(view, size, spp, self.warm_up)?;
+        let began = Instant::now();
+        let mut warm = backend.frames(view, size, spp, self.warm_up)?;
+        // An idle GPU's clock is a fifth of what it rises to within half a second.
+        while began.elapsed() < CLOCK_RISES.min(self.budget) {
+            warm = backend.frames(view, size, spp, self.warm_up)?;
+        }
         let frames = backend.frames(view, size, spp, self.count(&warm))?;
         Ok(Figures::of(&frames))
     }

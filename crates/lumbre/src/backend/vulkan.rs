@@ -99,8 +99,7 @@ impl Backend for VulkanBackend {
     }
 
     fn warm_up(&self, view: &View) -> Result<(), RenderError> {
-        // No sample of a film of one pixel: all but the work itself.
-        Backend::render(self, view, 0..0, &mut Film::new(1, 1), &()).map(drop)
+        VulkanBackend::warm_up(self, &view.settings).map_err(|e| failed(self, &e))
     }
 
     fn pass_times(&self) -> Vec<PassTime> {
@@ -116,7 +115,7 @@ impl Backend for VulkanBackend {
         Ok(Frames {
             seconds: frames.seconds,
             progress: frames.progress,
-            path_rays: Some(frames.path_rays),
+            path_rays: frames.path_rays,
             passes: frames.passes.into_iter().map(pass_time).collect(),
         })
     }

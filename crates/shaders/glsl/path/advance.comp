@@ -18,7 +18,7 @@ void main() {
     heads.at[QUEUE_PATHS + before].count = 0u;
     heads.at[queue_shadow(push.parity, 0u)].count = 0u;
     heads.at[queue_shadow(push.parity, 1u)].count = 0u;
-    heads.at[QUEUE_GLASS].count = 0u;
-    heads.at[QUEUE_GLASS + 1u].count = 0u;
+    heads.at[queue_glass(push.parity, 0u)].count = 0u;
+    heads.at[queue_glass(push.parity, 1u)].count = 0u;
     heads.at[QUEUE_CATCHERS].count = 0u;
 }

@@ -276,6 +276,11 @@ Scattered path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo
     path_step(path, it, surface, s, wi);
     // Play roulette.
     result.alive = !is_black(path.beta) && path_survives(path);
+    if (result.alive && !(is_finite(wi) && is_finite(path.beta))) {
+        // No ray can be traced with it; the film counts the sample as one that is not finite.
+        path.radiance = vec3(uintBitsToFloat(0x7fc00000u));
+        result.alive = false;
+    }
     return result;
 }
 

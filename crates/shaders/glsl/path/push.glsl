@@ -16,7 +16,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Queues {
     uint at[];
 };
 
-// A list of paths: its length, as an indirect launch of rays and of groups that shade.
+// A list of paths: its length, as an indirect launch of rays.
 struct QueueHead {
     // An indirect launch of one ray each: VkTraceRaysIndirectCommandKHR.
     uint count;
@@ -28,9 +28,9 @@ struct QueueHead {
 // Lists of paths, by what is to be done with them next.
 const uint QUEUE_PATHS = 0u; // and 1: one is read while the other is written
 const uint QUEUE_SHADOW = 2u; // to 5: a list for each group of lights, for paths of either list
-const uint QUEUE_GLASS = 6u; // and 7: shadow rays that meet what lets light through, for each group
-const uint QUEUE_CATCHERS = 8u;
-const uint QUEUES = 9u;
+const uint QUEUE_GLASS = 6u; // to 9: those of them that meet what lets light through
+const uint QUEUE_CATCHERS = 10u;
+const uint QUEUES = 11u;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer QueueHeads {
     QueueHead at[QUEUES];
@@ -94,9 +94,14 @@ layout(push_constant, scalar) uniform Push {
 #endif
 } push;
 
-// The list of shadow rays to a group of lights, of the paths that are read (`parity`), or of those before.
+// The list of shadow rays to a group of lights that steps of a parity have asked for.
 uint queue_shadow(uint parity, uint group) {
     return QUEUE_SHADOW + 2u * parity + group;
+}
+
+// The list of those of them that go through glass.
+uint queue_glass(uint parity, uint group) {
+    return QUEUE_GLASS + 2u * parity + group;
 }
 
 #define MATERIAL(id) push.scene.materials.at[id]

@@ -1,4 +1,4 @@
-// The closest surface of a path's ray: says which, and leaves the rest to ray generation.
+// The closest surface of a path's ray: says which, and leaves the rest to other passes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require

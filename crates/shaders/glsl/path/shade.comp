@@ -39,6 +39,8 @@ Scattered step_path(uint id, inout Path path) {
     path.beta *= medium_transmittance(medium_stack_current(path.media), it.t);
     // A catcher shows the camera what lies behind it; rays are traced for that.
     if (path_meets_catcher(path, it)) {
+        // Here and not there: storing the path drops the distance of the hit.
+        path.travelled += it.t;
         queue_add(QUEUE_CATCHERS, id);
         return result;
     }

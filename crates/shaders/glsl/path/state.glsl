@@ -244,7 +244,7 @@ bool hit_load(uint id, out Hit hit) {
     return true;
 }
 
-// The depth of the path before it scattered, for shadow rays: what their verdicts and bounds depend on.
+// `depth` is that of the path before it scattered: verdicts and bounds of shadow rays depend on it.
 void pending_store(uint group, uint id, PendingLight light, uint depth) {
     Quads state = push.view.state;
     uint n = push.view.capacity;

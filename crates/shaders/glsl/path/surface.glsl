@@ -146,6 +146,9 @@ BsdfParams surface_bsdf_params(Interaction it, Rgb base_color) {
     params.specular_color = MATERIAL(it.material).specular_color * TEXTURE(MATERIAL(it.material).specular_color_texture, it, SRGB).rgb;
     if (HAS_TRANSMISSION) {
         params.transmission = MATERIAL(it.material).transmission * TEXTURE(MATERIAL(it.material).transmission_texture, it, LINEAR).r;
+    }
+    // Not only where something is clear: diffuse light crosses the boundary of a solid too.
+    if (HAS_SOLID) {
         params.thin = (MATERIAL(it.material).flags & FLAG_SOLID) == 0u;
     }
     return params;

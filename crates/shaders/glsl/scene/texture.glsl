@@ -1,5 +1,6 @@
 // Textures. Twin: scene/src/compiled/texture.rs. All that is not alpha is read from images, where IMAGES is defined.
 #extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_samplerless_texture_functions : require
 #ifndef SCENE_TEXTURE_GLSL
 #define SCENE_TEXTURE_GLSL
 
@@ -8,8 +9,7 @@
 #include "math.glsl"
 
 #ifdef IMAGES
-layout(set = 0, binding = 1) uniform sampler2D textures_srgb[];
-layout(set = 0, binding = 2) uniform sampler2D textures_linear[];
+layout(set = 0, binding = 1) uniform texture2D textures[];
 #endif
 
 // The texel index for one that lies at most a texel outside the range that texture_reduced leaves.
@@ -75,12 +75,10 @@ float texture_alpha(TextureUse use, vec2 uv0, vec2 uv1) {
 }
 
 #ifdef IMAGES
-// A texel. Some devices decode the sRGB curve with an error that shows (2e-3 on Mesa's CPU driver): there a table does it.
+// A texel. Devices decode the sRGB curve with errors that tell their pictures apart (2e-3 on Mesa's CPU driver; on an H100 a quarter of all
+// paths in a textured room differed): a table does it.
 vec4 texture_texel(uint id, ivec2 at, bool srgb) {
-    if (srgb && DEVICE_SRGB) {
-        return texelFetch(textures_srgb[nonuniformEXT(id)], at, 0);
-    }
-    vec4 v = texelFetch(textures_linear[nonuniformEXT(id)], at, 0);
+    vec4 v = texelFetch(textures[nonuniformEXT(id)], at, 0);
     if (!srgb) {
         return v;
     }

@@ -73,7 +73,7 @@ impl Both {
         // Made before, so that the time is that of drawing.
         lumbre::Backend::warm_up(&self.vulkan, view).expect("the pipeline is made");
         let made = began.elapsed().as_secs_f32();
-        let paired = Paired::new(&self.pairs(view, empty, shot.spp), shot.bounds.color);
+        let paired = Paired::new(&self.pairs(view, empty, shot.spp), &shot.bounds);
         println!("{name}: {paired}; {made:.1} + {:.1} s", began.elapsed().as_secs_f32() - made);
         let faults = paired.faults(&shot.bounds);
         faults.into_iter().map(|fault| format!("{name}: {fault}")).collect()

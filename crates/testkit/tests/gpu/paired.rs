@@ -35,14 +35,21 @@ fn our_scenes() {
     );
 }
 
+/// For the pool. Each of its paths passes several normal maps (tiles, wood, cloth, plaster), of which
+/// devices read texels that differ in the last digits; each bounce multiplies what that does to the direction. As measured at 48 x 32
+/// pixels without roulette, paths that differ by 1e-3: none at depths 0 and 1, 16 in 1000 at depth 3, 55 (exterior) and 124 (interior)
+/// at depth 16, of which one in six and one in seventeen by more than a tenth. Without normal maps it is 13 and 19, without any
+/// textures 6 and 26. With several samples of a pixel one fork would spoil what the others have in common.
+const FORKING: Shot = Shot { size: [56, 42], spp: 1, ..Shot::TEXTURED };
+
 #[test]
 fn our_large_scenes() {
     check(
         &asset(""),
         &[
             ("materials.glb", "all", Shot::TEXTURED),
-            ("pool.glb", "exterior", Shot::TEXTURED),
-            ("pool.glb", "interior", Shot::TEXTURED),
+            ("pool.glb", "exterior", FORKING),
+            ("pool.glb", "interior", FORKING),
         ],
     );
 }

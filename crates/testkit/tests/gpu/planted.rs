@@ -36,7 +36,7 @@ fn check(name: &str, scene: &Scene, view: &View, plants: &[Plant<'_>]) {
     let compare = |backend: &CpuBackend, view: &View| {
         let cpu = on_cpu(backend, view, &empty, SHOT.spp);
         let pairs: Vec<(Film, Film)> = cpu.into_iter().zip(gpu.clone()).collect();
-        let paired = Paired::new(&pairs, SHOT.bounds.color);
+        let paired = Paired::new(&pairs, &SHOT.bounds);
         (paired, paired.faults(&SHOT.bounds))
     };
     let (paired, mut faults) = compare(&both.cpu, view);
@@ -300,7 +300,7 @@ fn in_filters() {
         for (wider, wrong) in [(1.0, false), (MORE, true), (1.0 / MORE, true)] {
             let cpu = on_cpu(&both.cpu, &view(wider), &pixel, spp);
             let pairs: Vec<(Film, Film)> = cpu.into_iter().zip(gpu.clone()).collect();
-            let paired = Paired::new(&pairs, SHOT.bounds.color);
+            let paired = Paired::new(&pairs, &SHOT.bounds);
             println!("{filter:?}, {wider} as wide: {paired}");
             assert_eq!(!paired.faults(&SHOT.bounds).is_empty(), wrong, "{filter:?}, {wider}: {paired}");
         }

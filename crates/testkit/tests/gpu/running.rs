@@ -5,6 +5,7 @@ use crate::scenes::{lamps, lamps_view, look, sky};
 use glam::Vec3;
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
+use lumbre_core::film::Crop;
 use lumbre_core::settings::View;
 use lumbre_cpu::CpuBackend;
 use lumbre_scene::{CompiledScene, Material, Scene};
@@ -68,7 +69,7 @@ fn a_device_lost_in_the_middle() {
 fn assert_agree(a: Film, b: Film) {
     let counts = |f: &Film| f.pixels().iter().map(|p| p.samples()).collect::<Vec<_>>();
     assert_eq!(counts(&a), counts(&b));
-    let paired = Paired::new(&[(a, b)], Bounds::PLAIN.color);
+    let paired = Paired::new(&[(a, b)], &Bounds::PLAIN);
     let faults = paired.faults(&Bounds::PLAIN);
     assert!(faults.is_empty(), "{paired}: {}", faults.join("; "));
 }
@@ -97,13 +98,37 @@ fn parts_of_two_devices_add() {
     assert_agree(whole.clone(), first);
     assert_agree(whole.clone(), second);
     let again = sum(part(0..3, false), &part(0..3, true));
-    let paired = Paired::new(&[(whole, again)], Bounds::PLAIN.color);
+    let paired = Paired::new(&[(whole, again)], &Bounds::PLAIN);
     assert!(!paired.faults(&Bounds::PLAIN).is_empty(), "{paired}");
     // To a film that holds something the GPU adds as well, to the bit.
     let mut film = part(0..2, false);
     both.vulkan.render(&view, 2..6, &mut film, &()).expect("the GPU renders");
     assert!(film == sum(part(0..2, false), &part(2..6, true)));
     assert!(on_cpu(&both.cpu, &view, &Film::new(48, 36), 1)[0] == part(0..1, false));
+}
+
+/// Many samples of many pixels at once, of an odd number of rows and columns and in as many pieces as it takes, are to the bit what the
+/// samples are one by one, and a part of the picture is that part of it.
+#[test]
+fn pieces_make_no_difference() {
+    let Some(both) = Both::new(compile(&lamps())) else { return };
+    let (size, view) = ([51, 37], lamps_view(51.0 / 37.0));
+    let at_once = |mut film: Film| {
+        both.vulkan.render(&view, 3..10, &mut film, &()).expect("the GPU renders");
+        film
+    };
+    let whole = at_once(Film::new(size[0], size[1]));
+    let mut one_by_one = Film::new(size[0], size[1]);
+    for sample in (3..10).rev() {
+        both.vulkan.render(&view, sample..sample + 1, &mut one_by_one, &()).expect("the GPU renders");
+    }
+    assert!(whole == one_by_one);
+    let crop = Crop { origin: [13, 5], size: [17, 29] };
+    let window = at_once(Film::window(size, crop));
+    for (i, p) in window.pixels().iter().enumerate() {
+        let (x, y) = (i as u32 % crop.size[0], i as u32 / crop.size[0]);
+        assert!(p == whole.pixel(crop.origin[0] + x, crop.origin[1] + y), "{x}, {y}");
+    }
 }
 
 /// A scene comes and goes twenty times, and nothing of it stays. Drivers that compute on the processor take long to make pipelines: there

@@ -7,7 +7,7 @@ use lumbre_core::settings::RenderSettings;
 use lumbre_scene::{
     Background, DiffuseTransmission, Environment, Light, LightId, LightKind, Material, Node, Scene, Volume,
 };
-use lumbre_testkit::measure::{analytic_settings, grey, pinhole, prepare, radiance};
+use lumbre_testkit::measure::{OnAll, analytic_settings, grey, pinhole};
 use lumbre_testkit::shapes::{add, cuboid, disc, icosphere, rectangle, smooth_icosphere};
 
 /// A sheet of base colour `base` of which a share passes in `color`, without an interface.
@@ -34,14 +34,14 @@ fn a_sheet_before_a_point_light() {
     scene.lights.push(Light { name: String::new(), kind: LightKind::Point, intensity: grey(8.0) });
     let transform = Mat4::from_translation(Vec3::NEG_Z * 2.0);
     scene.add_root(Node { light: Some(LightId(0)), transform, ..Node::default() });
-    let backend = prepare(&scene);
+    let on_all = OnAll::new(&scene);
     for (eye, expected) in [
         (Vec3::new(0.3, 0.2, 2.0), SHOWN(0.4 * 0.9, 2.0)),
         (Vec3::new(-2.0, 0.0, 0.5), SHOWN(0.4 * 0.9, 2.0)),
         (Vec3::new(0.5, 0.0, -1.0), SHOWN(0.6 * 0.5, 2.0)),
     ] {
-        let seen = radiance(&backend, pinhole(eye, Vec3::ZERO, 1e-4), analytic_settings());
-        seen.assert_is(expected, 0.0, &format!("sheet from {eye}"));
+        let camera = pinhole(eye, Vec3::ZERO, 1e-4);
+        on_all.assert_radiance(camera, analytic_settings(), expected, 0.0, &format!("sheet from {eye}"));
     }
 }
 
@@ -51,12 +51,12 @@ fn a_sheet_before_a_lamp() {
     let mut scene = Scene::default();
     add(&mut scene, rectangle(Vec3::ZERO, Vec3::X * 0.01, Vec3::Z * 0.01), sheet(0.7, 0.6, 0.8));
     add(&mut scene, disc(Vec3::Y, Vec3::NEG_Y, 1.0, 256), Material::emitter(grey(1.0), false));
-    let backend = prepare(&scene);
+    let on_all = OnAll::new(&scene);
     let camera = pinhole(Vec3::new(0.3, -1.0, 0.2), Vec3::ZERO, 1e-4);
     for light_sampling in [true, false] {
         let settings = RenderSettings { light_sampling, max_depth: Some(1), ..analytic_settings() };
-        let seen = radiance(&backend, camera, settings);
-        seen.assert_is(SHOWN(0.6 * 0.8, f64::from(PI) / 2.0), 4e-4, "sheet before a lamp");
+        let expected = SHOWN(0.6 * 0.8, f64::from(PI) / 2.0);
+        on_all.assert_radiance(camera, settings, expected, 4e-4, "sheet before a lamp");
     }
 }
 
@@ -75,10 +75,10 @@ fn white_sheets_in_a_furnace() {
         let environment = Environment { background, ..Environment::default() };
         let mut scene = Scene { environment, ..Scene::default() };
         add(&mut scene, icosphere(Vec3::ZERO, 1.0, 3), material);
-        let backend = prepare(&scene);
+        let on_all = OnAll::new(&scene);
         for light_sampling in [true, false] {
             let settings = RenderSettings { light_sampling, ..analytic_settings() };
-            radiance(&backend, camera, settings).assert_is(expected, 4e-4, "white sheet in a furnace");
+            on_all.assert_radiance(camera, settings, expected, 4e-4, "white sheet in a furnace");
         }
     }
 }

@@ -13,7 +13,9 @@ use lumbre_scene::{
     AlphaMode, Background, Environment, EnvironmentMap, Filter, Image, ImageId, Light, LightId, LightKind,
     Material, Node, Scene, Sun, Texture, TextureId, Wrap,
 };
-use lumbre_testkit::measure::{self, Estimate, analytic_settings, film, grey, pinhole, prepare, radiance};
+use lumbre_testkit::measure::{
+    self, Estimate, OnAll, analytic_settings, film, grey, pinhole, prepare, radiance,
+};
 use lumbre_testkit::shapes::{add, cuboid, inside_out, rectangle, smooth_icosphere};
 
 pub(super) const ON: RenderSettings = RenderSettings { light_sampling: true, ..BASE };
@@ -197,7 +199,7 @@ fn spot_light_has_its_falloff() {
     let mut scene = Scene::default();
     floor(&mut scene, 4.0);
     spot(&mut scene, Vec3::Y * 2.0, 50.0);
-    let backend = prepare(&scene);
+    let on_all = OnAll::new(&scene);
     for angle in [0.1f32, 0.45, 0.6] {
         let (sin, cos) = sin_cos(angle);
         let [inner, outer] = [0.3f32, 0.7].map(|a| f64::from(sin_cos(a).1));
@@ -205,10 +207,10 @@ fn spot_light_has_its_falloff() {
         let expected = 0.7 * f64::from(INV_PI) * 50.0 * ramp * ramp * f64::from(cos).powi(3) / 4.0;
         let at = Vec3::new(2.0 * sin / cos, 0.0, 0.0);
         let camera = pinhole(at + Vec3::new(0.3, 1.0, 0.5), at, 1e-4);
-        radiance(&backend, camera, analytic_settings()).assert_is(expected, 0.0, &format!("spot at {angle}"));
+        on_all.assert_radiance(camera, analytic_settings(), expected, 0.0, &format!("spot at {angle}"));
     }
     let outside = pinhole(Vec3::new(2.5, 1.0, 0.0), Vec3::new(2.0, 0.0, 0.0), 1e-4);
-    assert_eq!(radiance(&backend, outside, analytic_settings()).mean, 0.0);
+    assert_eq!(radiance(&prepare(&scene), outside, analytic_settings()).mean, 0.0);
 }
 
 /// Roulette changes nothing where a spot lights a closed room.

@@ -7,15 +7,17 @@ pub use own_rays::{OwnRays, RayBatch, Replayed};
 use super::code::Code;
 use super::film::FilmOnGpu;
 use super::media::Solids;
-use super::passes::{HeadsReadback, MOST_PATHS, NAMES, Passes, Paths, paths_per_sample};
+use super::passes::{HeadsReadback, LEAST_PATHS, MOST_PATHS, NAMES, Passes, Paths, paths_per_sample};
 use super::slices::{Pace, Slice, Slices};
 use super::variant::SceneConstants;
 use crate::{
     AccelReport, Buffer, Gpu, Pending, PipelineCache, SceneOnGpu, SceneOptions, Specialisation, Timer,
     Upload, VulkanError,
 };
+use glam::Vec3;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::Film;
+use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_scene::CompiledScene;
 use lumbre_shaders as shaders;
@@ -51,6 +53,8 @@ struct Work {
     variants: Vec<(Specialisation, Arc<Passes>)>,
     film: Option<FilmOnGpu>,
     paths: Option<Paths>,
+    /// The solids around the last place of the camera.
+    media: Option<(Vec3, MediumStack)>,
     pace: Pace,
     times: [PassTime; NAMES.len()],
 }
@@ -64,6 +68,7 @@ impl Work {
             variants: Vec::new(),
             film: None,
             paths: None,
+            media: None,
             pace: Pace::default(),
             times: no_times(),
         }
@@ -92,8 +97,8 @@ pub struct Frames {
     pub seconds: Vec<f64>,
     /// Camera samples and rays in all.
     pub progress: Progress,
-    /// Rays of paths among them: the others went to lights.
-    pub path_rays: u64,
+    /// Rays of paths among them, where they were counted apart: the others went to lights.
+    pub path_rays: Option<u64>,
     /// Time of the GPU, pass by pass.
     pub passes: Vec<PassTime>,
 }
@@ -126,11 +131,13 @@ struct Rays {
 
 impl Shot {
     /// Rays of a slice whose last submission left these heads.
-    fn rays(&self, heads: &QueueHeads) -> Rays {
+    fn rays(&self, slice: &Slice, heads: &QueueHeads) -> Rays {
+        // Blocks that reach outside have places in the first list, but no rays.
+        let outside = paths_per_sample(slice.size) * slice.samples.len() as u64 - slice.count();
         // Those of the last step have not been counted yet.
         let list = queue::SHADOW + 2 * (1 - self.steps % 2);
         let last: u64 = (list..list + 2).map(|l| u64::from(heads.at[l as usize].count)).sum();
-        Rays { path: heads.path_rays.into(), shadow: u64::from(heads.shadow_rays) + last }
+        Rays { path: u64::from(heads.path_rays) - outside, shadow: u64::from(heads.shadow_rays) + last }
     }
 }
 
@@ -174,6 +181,14 @@ impl VulkanBackend {
         self.work.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Makes what renders with these settings need beside the film, so that the first one need not.
+    ///
+    /// # Errors
+    /// If the driver refuses a pipeline or memory is out.
+    pub fn warm_up(&self, settings: &RenderSettings) -> Result<(), VulkanError> {
+        self.passes(&mut self.lock(), settings).map(drop)
+    }
+
     /// Adds the samples of a range to every pixel of `film`, the whole picture or a part of it. Stops within about a tenth of a second
     /// when cancelled; pixels then differ in their sample counts. Returns what was done.
     ///
@@ -199,7 +214,7 @@ impl VulkanBackend {
             let began = Instant::now();
             self.submit(&work, &shot, &flight, (&slice, true))?.wait()?;
             note(&mut work.times, &flight)?;
-            let rays = self.finish(&mut work, &shot, &flight, &slice)?;
+            let Some(rays) = self.finish(&mut work, &shot, &flight, (&slice, control))? else { break };
             work.pace.learn(slice.count(), began.elapsed().as_secs_f64());
             done.samples += slice.count();
             done.rays += rays.path + rays.shadow;
@@ -219,23 +234,20 @@ impl VulkanBackend {
         let mut work = self.lock();
         let film = Film::new(size[0], size[1]);
         let shot = self.shot(&mut work, view, &film, spp.into())?;
-        let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
-        let room = (capacity / paths_per_sample(size).max(1)).min(spp.into()) as u32;
-        if room == 0 || !shot.complete {
+        if !shot.complete {
             drop(work);
             return self.frames_by_renders(view, size, spp, count);
         }
+        let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
         let flights = [self.flight(&shot, true)?, self.flight(&shot, true)?];
         let (mut frames, mut times) = (Frames::default(), no_times());
         // All slices of all frames, in order; a frame is done with its last one.
-        let slices: Vec<(Slice, bool)> = (0..count)
-            .flat_map(|f| {
-                (0..spp).step_by(room as usize).map(move |s| {
-                    let end = (s + room).min(spp);
-                    (Slice { first_pixel: [0, 0], size, samples: f * spp + s..f * spp + end }, end == spp)
-                })
-            })
-            .collect();
+        let mut slices: Vec<(Slice, bool)> = Vec::new();
+        for frame in 0..count {
+            let mut of_frame = Slices::new(&film, frame * spp..(frame + 1) * spp, capacity);
+            slices.extend(std::iter::from_fn(|| of_frame.next(&Pace::unbounded())).map(|s| (s, false)));
+            slices.last_mut().into_iter().for_each(|s| s.1 = true);
+        }
         let mut pending: VecDeque<Pending> = VecDeque::new();
         let mut last = Instant::now();
         for i in 0..slices.len() + 1 {
@@ -243,13 +255,13 @@ impl VulkanBackend {
                 pending.push_back(self.submit(&work, &shot, &flights[i % 2], (slice, true))?);
             }
             // The slice before ends while this one is under way.
-            let Some((_, ends)) = i.checked_sub(1).and_then(|i| slices.get(i)) else { continue };
+            let Some((slice, ends)) = i.checked_sub(1).and_then(|i| slices.get(i)) else { continue };
             pending.pop_front().expect("one slice for each turn").wait()?;
             let flight = &flights[(i - 1) % 2];
             note(&mut times, flight)?;
-            let (rays, now) = (shot.rays(&flight.heads.read()), Instant::now());
+            let (rays, now) = (shot.rays(slice, &flight.heads.read()), Instant::now());
             frames.progress.rays += rays.path + rays.shadow;
-            frames.path_rays += rays.path;
+            *frames.path_rays.get_or_insert_default() += rays.path;
             if *ends {
                 frames.seconds.push((now - last).as_secs_f64());
                 last = now;
@@ -277,7 +289,6 @@ impl VulkanBackend {
             frames.progress.samples += done.samples;
             frames.progress.rays += done.rays;
         }
-        frames.passes = self.pass_times();
         Ok(frames)
     }
 
@@ -300,6 +311,8 @@ impl VulkanBackend {
     ) -> Result<Pending, VulkanError> {
         let paths = work.paths.as_ref().expect("the shot made them");
         let push = shot.of(slice);
+        let needed = paths_per_sample(slice.size) * slice.samples.len() as u64;
+        assert!(needed <= paths.capacity().into(), "{slice:?} has no room");
         self.gpu.submit("path tracing", |commands| {
             let what = (&push, begins, shot.steps, shot.complete);
             shot.passes.record(commands, paths, &flight.timer, what);
@@ -308,21 +321,25 @@ impl VulkanBackend {
         })
     }
 
-    /// Goes on until the last path of a slice has ended, and brings it to the film, where the first submission could not.
+    /// Goes on until the last path of a slice has ended, and brings it to the film, where the first submission could not. `None` when
+    /// cancelled: the film is left without this slice.
     fn finish(
         &self,
         work: &mut Work,
         shot: &Shot,
         first: &Flight,
-        slice: &Slice,
-    ) -> Result<Rays, VulkanError> {
+        (slice, control): (&Slice, &dyn Control),
+    ) -> Result<Option<Rays>, VulkanError> {
         let mut heads = first.heads.read();
         if shot.complete {
-            return Ok(shot.rays(&heads));
+            return Ok(Some(shot.rays(slice, &heads)));
         }
         // An even number of steps: each submission finds the paths in the first list.
         let flight = self.flight(shot, false)?;
         while heads.at[queue::PATHS as usize].count > 0 {
+            if control.cancelled() {
+                return Ok(None);
+            }
             self.submit(work, shot, &flight, (slice, false))?.wait()?;
             note(&mut work.times, &flight)?;
             heads = flight.heads.read();
@@ -333,7 +350,7 @@ impl VulkanBackend {
             shot.passes.record(commands, paths, &timer, (&shot.of(slice), false, 0, true));
             Ok(())
         })?;
-        Ok(shot.rays(&heads))
+        Ok(Some(shot.rays(slice, &heads)))
     }
 
     /// Gets ready for a film and so many samples of each pixel: pipelines, view, empty sums.
@@ -344,14 +361,20 @@ impl VulkanBackend {
             work.film = None;
             work.film = Some(FilmOnGpu::new(&self.gpu, pixels)?);
         }
-        let paths = (paths_per_sample([film.width(), film.height()]) * samples).clamp(1 << 12, MOST_PATHS);
+        let paths = paths_per_sample([film.width(), film.height()]).saturating_mul(samples);
+        let paths = paths.clamp(LEAST_PATHS, MOST_PATHS);
         let solids = self.constants.needs.solids;
         if work.paths.as_ref().is_none_or(|p| !p.suits(paths, solids)) {
             work.paths = None;
-            work.paths = Some(Paths::new(&self.gpu, paths.next_power_of_two(), solids)?);
+            work.paths = Some(self.room(paths.next_power_of_two(), solids)?);
         }
+        let eye = view.camera.origin;
+        let media = match work.media {
+            Some((at, media)) if at == eye => media,
+            _ => work.media.insert((eye, self.solids.around(eye))).1,
+        };
         let on_gpu = work.film.as_ref().expect("made above");
-        let table = self.view_table(view, film, on_gpu, work.paths.as_ref().expect("made above"));
+        let table = self.view_table(view, film, on_gpu, work.paths.as_ref().expect("made above"), &media);
         let mut upload = Upload::new(&self.gpu);
         let table = Buffer::with_content(&mut upload, "view", bytemuck::bytes_of(&table))?;
         upload.finish()?;
@@ -370,13 +393,30 @@ impl VulkanBackend {
             parity: 0,
             group: 0,
         };
-        let steps = view.settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND).saturating_add(1);
+        let steps = max_depth(&view.settings) + 1;
         let complete = steps <= MOST_STEPS && !self.constants.needs.catchers;
         let steps = if complete { steps } else { MOST_STEPS };
         Ok(Shot { passes: self.passes(work, &view.settings)?, push, steps, complete, _view: table })
     }
 
-    fn view_table(&self, view: &View, film: &Film, on_gpu: &FilmOnGpu, paths: &Paths) -> ViewTable {
+    /// Room for so many paths, or for fewer where memory is short: slices are smaller then.
+    fn room(&self, paths: u64, solids: bool) -> Result<Paths, VulkanError> {
+        match Paths::new(&self.gpu, paths, solids) {
+            Err(VulkanError::OutOfMemory { .. } | VulkanError::TooLarge { .. }) if paths > LEAST_PATHS => {
+                Ok(self.room(paths / 2, solids)?.short())
+            }
+            made => made,
+        }
+    }
+
+    fn view_table(
+        &self,
+        view: &View,
+        film: &Film,
+        on_gpu: &FilmOnGpu,
+        paths: &Paths,
+        media: &MediumStack,
+    ) -> ViewTable {
         let settings = &view.settings;
         let [film_address, non_finite] = on_gpu.addresses();
         let [state, queues, heads] = paths.addresses();
@@ -392,12 +432,12 @@ impl VulkanBackend {
             capacity: paths.capacity(),
             seed: settings.seed,
             frame: view.frame,
-            max_depth: settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND),
+            max_depth: max_depth(settings),
             roulette: settings.roulette.unwrap_or(u32::MAX),
             clamp_to: settings.clamp.unwrap_or(f32::INFINITY),
             filter_kind: settings.filter as u32,
             camera: (&view.camera).into(),
-            media: (&self.solids.around(view.camera.origin)).into(),
+            media: media.into(),
         }
     }
 
@@ -431,6 +471,11 @@ impl Shot {
             ..self.push
         }
     }
+}
+
+/// Most scattering events of a path.
+fn max_depth(settings: &RenderSettings) -> u32 {
+    settings.max_depth.map_or(RenderSettings::DEPTH_BOUND, |d| d.min(RenderSettings::DEPTH_BOUND))
 }
 
 /// Adds the times of a submission that was waited for.

@@ -23,12 +23,22 @@ use bytemuck::bytes_of;
 use lumbre_shaders::view::{BLOCK, Push, QUEUES, QueueHead, QueueHeads, STATE_QUADS, queue};
 use std::mem::offset_of;
 
-/// Most paths under way at a time: a frame of 1920x1080.
-pub(super) const MOST_PATHS: u64 = 1 << 21;
+/// Most paths under way at a time: a frame of 2560x1440.
+pub(super) const MOST_PATHS: u64 = 1 << 22;
+/// Fewest that there is always room for.
+pub(super) const LEAST_PATHS: u64 = 1 << 12;
 
 /// Names of the passes, in order.
-pub(super) const NAMES: [&str; 8] =
-    ["generate", "advance", "trace", "shade", "shadow", "glass", "catch", "gather"];
+pub(super) const NAMES: [&str; 8] = [
+    "generate",
+    "advance",
+    "trace + shadow",
+    "shade + glass",
+    "last shadow",
+    "last glass",
+    "catch",
+    "gather",
+];
 
 /// Invocations of a work group.
 const GROUP: u32 = 64;
@@ -37,6 +47,8 @@ const GROUP: u32 = 64;
 pub(super) struct Paths {
     capacity: u32,
     solids: bool,
+    /// Less than was asked for.
+    short: bool,
     state: Buffer,
     queues: Buffer,
     heads: Buffer,
@@ -52,16 +64,22 @@ impl Paths {
         Ok(Paths {
             capacity: paths as u32,
             solids,
+            short: false,
             state: Buffer::new(gpu, "paths under way", paths * quads * 16, Purpose::Data)?,
             queues: Buffer::new(gpu, "lists of paths", paths * QUEUES as u64 * 4, Purpose::Data)?,
             heads: Buffer::new(gpu, "lengths of lists", size_of::<QueueHeads>() as u64, Purpose::Data)?,
         })
     }
 
-    /// Whether this is room for `paths`, and not far too much.
+    /// Whether this is room for `paths`, or all that there was, and not far too much.
     pub(super) fn suits(&self, paths: u64, solids: bool) -> bool {
         let capacity = u64::from(self.capacity);
-        capacity >= paths && capacity <= 8 * paths.max(1 << 16) && self.solids == solids
+        (capacity >= paths || self.short) && capacity <= 8 * paths.max(1 << 16) && self.solids == solids
+    }
+
+    /// Notes that there was not room for more.
+    pub(super) fn short(self) -> Self {
+        Paths { short: true, ..self }
     }
 
     /// Paths that there is room for.
@@ -181,7 +199,8 @@ impl Passes {
             stamps.extend([1, 2, 3]);
             stamps.extend(self.catch.is_some().then_some(6));
         }
-        if steps > 0 {
+        // The last step of paths that cannot be longer asks for nothing.
+        if steps > 0 && !(begins && ends) {
             stamps.extend([4, 5]);
         }
         stamps.extend(ends.then_some(7));
@@ -203,7 +222,7 @@ impl Passes {
         self.generate.dispatch(commands, bytes_of(push), [count.div_ceil(GROUP), 1]);
     }
 
-    /// Records `steps` scattering events, from the list of `first` parity on; then, if it `ends`, the way to the film. Stamps as
+    /// Records the beginning of a slice's paths if it `begins`, `steps` scattering events, and if it `ends` the way to the film. Stamps as
     /// [`Self::stamps`] says.
     pub(super) fn record(
         &self,
@@ -224,7 +243,7 @@ impl Passes {
             self.step(&mut r, step > 0);
             r.push.parity = 1 - r.push.parity;
         }
-        if steps > 0 {
+        if steps > 0 && !(begins && ends) {
             self.shadows(&mut r);
             r.done();
             self.glass(&mut r);
@@ -235,6 +254,7 @@ impl Passes {
             self.gather.dispatch(commands, bytes_of(&r.push), [groups, 1]);
             r.done();
         }
+        assert_eq!(r.stamps, self.stamps(begins, steps, ends).len() + 1, "each stamp has a name");
     }
 
     /// One scattering event of all paths. The shadow rays of the one before are traced beside its rays, and those of them that meet glass are
@@ -269,7 +289,7 @@ impl Passes {
     /// Those of them that meet what lets light through.
     fn glass(&self, r: &mut Recording<'_>) {
         if let Some(glass) = &self.glass {
-            self.for_lights(r, |r| r.rays(glass, queue::GLASS + r.push.group));
+            self.for_lights(r, |r| r.rays(glass, queue::GLASS + 2 * r.push.parity + r.push.group));
         }
     }
 

@@ -13,7 +13,7 @@ const FIRST: u64 = 4096;
 /// A piece may be so many times as large as the one before: what was measured may have been the easy part of the picture.
 const GROWTH: f64 = 4.0;
 
-/// One dispatch: some pixels of the film, some samples of each.
+/// One piece: some pixels of the film, some samples of each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Slice {
     /// Column and row of the film.
@@ -44,6 +44,11 @@ impl Default for Pace {
 }
 
 impl Pace {
+    /// Pieces as large as there is room for.
+    pub(super) fn unbounded() -> Self {
+        Pace { room: u64::MAX }
+    }
+
     /// Learns from a piece of `count` samples that took `seconds`.
     pub(super) fn learn(&mut self, count: u64, seconds: f64) {
         let fits = count as f64 * GOAL / seconds.max(1e-6);
@@ -88,7 +93,8 @@ impl Slices {
         // Some rows of blocks, or of a very wide picture a part of one.
         let [x, y] = self.at;
         let columns = (self.capacity / u64::from(BLOCK[1])).min(u64::from(width - x)) as u32;
-        let rows = (room / u64::from(columns)) as u32 / BLOCK[1] * BLOCK[1];
+        let across = u64::from(columns.next_multiple_of(BLOCK[0]));
+        let rows = (room / across).min(1 << 30) as u32 / BLOCK[1] * BLOCK[1];
         let rows = if columns < width { BLOCK[1] } else { rows.max(BLOCK[1]) }.min(height - y);
         self.at = if x + columns < width { [x + columns, y] } else { [0, y + rows] };
         if self.at[1] == height {
@@ -112,6 +118,8 @@ mod tests {
             ([64, 64], 5..6, vec![4096], 4096),
             ([33, 9], 0..40, vec![40, 100, 480, 4800, 1], 4096),
             ([3001, 9], 0..2, vec![1, 4096, 1 << 20], 4096),
+            ([9, 5000], 0..2, vec![4096, u64::MAX], 4096),
+            ([1, 9000], 0..3, vec![4096], 4096),
             ([1, 1], 0..1, vec![1], 4096),
         ] {
             let mut seen = vec![0u32; size[0] as usize * size[1] as usize * samples.len()];

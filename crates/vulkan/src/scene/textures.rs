@@ -1,31 +1,22 @@
-//! Textures of a scene on the device: images that it filters, and texels in a buffer where shaders filter by hand.
+//! Textures of a scene on the device: images, and texels in a buffer where they decide what rays find.
 
 use crate::buffer::Buffer;
 use crate::error::VulkanError;
 use crate::gpu::Limits;
-use crate::image::{Image, Sampler};
+use crate::image::Image;
 use crate::upload::Upload;
 use ash::vk;
 use lumbre_scene::CompiledScene;
-use lumbre_scene::compiled::texture::{TextureRecord, wrap};
+use lumbre_scene::compiled::texture::TextureRecord;
 use lumbre_shaders::layout::TextureTable;
 use std::collections::BTreeMap;
-
-/// What an element of the arrays of textures is.
-#[derive(Clone, Copy)]
-pub(crate) struct Sampled {
-    pub(crate) srgb: vk::ImageView,
-    pub(crate) linear: vk::ImageView,
-    pub(crate) sampler: vk::Sampler,
-}
 
 /// The textures of a scene.
 pub(crate) struct Textures {
     _images: Vec<Image>,
-    _samplers: Vec<Sampler>,
     _texels: Vec<Buffer>,
     /// One for each texture.
-    pub(crate) sampled: Vec<Sampled>,
+    pub(crate) views: Vec<vk::ImageView>,
     /// One for each texture.
     pub(crate) tables: Vec<TextureTable>,
 }
@@ -48,22 +39,15 @@ impl Textures {
     /// If they are too many or too large for it, memory is out, or the device is lost.
     pub(crate) fn new(upload: &mut Upload, scene: &CompiledScene) -> Result<Self, VulkanError> {
         check(&upload.gpu().0.limits, scene)?;
-        let mut all = Textures {
-            _images: Vec::new(),
-            _samplers: Vec::new(),
-            _texels: Vec::new(),
-            sampled: Vec::new(),
-            tables: Vec::new(),
-        };
+        let mut all =
+            Textures { _images: Vec::new(), _texels: Vec::new(), views: Vec::new(), tables: Vec::new() };
         all.add_images(upload, scene)?;
         all.add_tables(upload, scene)?;
         Ok(all)
     }
 
     fn add_images(&mut self, upload: &mut Upload, scene: &CompiledScene) -> Result<(), VulkanError> {
-        let gpu = upload.gpu().clone();
         let mut images = BTreeMap::<Place, usize>::new();
-        let mut samplers = BTreeMap::<[u32; 3], usize>::new();
         for (id, t) in scene.textures.iter().enumerate() {
             let at = place(t);
             if let std::collections::btree_map::Entry::Vacant(free) = images.entry(at) {
@@ -71,15 +55,7 @@ impl Textures {
                 let name = format!("texture {id}");
                 self._images.push(Image::new(upload, &name, [t.width, t.height], texels(scene, &at))?);
             }
-            let kind = [t.wrap_s, t.wrap_t, t.nearest];
-            if let std::collections::btree_map::Entry::Vacant(free) = samplers.entry(kind) {
-                free.insert(self._samplers.len());
-                let filter = if t.nearest == 1 { vk::Filter::NEAREST } else { vk::Filter::LINEAR };
-                self._samplers.push(Sampler::new(&gpu, [mode(t.wrap_s), mode(t.wrap_t)], filter)?);
-            }
-            let image = &self._images[images[&at]];
-            let sampler = self._samplers[samplers[&kind]].raw;
-            self.sampled.push(Sampled { srgb: image.srgb, linear: image.linear, sampler });
+            self.views.push(self._images[images[&at]].view);
         }
         Ok(())
     }
@@ -120,8 +96,7 @@ fn check(limits: &Limits, scene: &CompiledScene) -> Result<(), VulkanError> {
             Err(VulkanError::TooLarge { what: what.to_owned(), needed, limit })
         }
     };
-    // Each is there twice: read as sRGB and as linear values.
-    refuse("textures", scene.textures.len() as u64, limits.max_sampled_images / 2)?;
+    refuse("textures", scene.textures.len() as u64, limits.max_sampled_images)?;
     let side = scene.textures.iter().map(|t| t.width.max(t.height)).max().unwrap_or(0);
     refuse("the side of a texture (texels)", side.into(), limits.max_image_side)
 }
@@ -135,12 +110,4 @@ fn deciding_alpha(scene: &CompiledScene) -> Vec<bool> {
         }
     }
     decides
-}
-
-fn mode(raw: u32) -> vk::SamplerAddressMode {
-    match raw {
-        wrap::MIRRORED_REPEAT => vk::SamplerAddressMode::MIRRORED_REPEAT,
-        wrap::CLAMP_TO_EDGE => vk::SamplerAddressMode::CLAMP_TO_EDGE,
-        _ => vk::SamplerAddressMode::REPEAT,
-    }
 }
