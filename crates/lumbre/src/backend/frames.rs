@@ -45,7 +45,7 @@ pub struct Replayed {
     pub path_rays: u64,
     /// Rays to lights.
     pub shadow_rays: u64,
-    /// Rays of the frame that are not replayed: those that follow light through glass, and those of shadow catchers.
+    /// What is not replayed: shadow rays that follow light through glass (the way there is), and those of shadow catchers.
     pub left_out: u64,
     /// Time for those of paths, launch after launch.
     pub path_ms: f64,

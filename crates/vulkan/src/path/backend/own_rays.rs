@@ -33,8 +33,10 @@ pub struct OwnRays {
     pub batches: Vec<RayBatch>,
     /// Rays of paths as the frame counted them.
     pub path_rays: u64,
-    /// Shadow rays likewise. More than in `batches` where some follow light through glass, or shadow catchers trace their own.
+    /// Shadow rays likewise.
     pub shadow_rays: u64,
+    /// Shadow rays that were traced on from one surface that lets light through to the next. In `batches` they end at what stops light.
+    pub through_glass: u64,
 }
 
 /// What a frame's own rays take by themselves; times are medians.
@@ -44,7 +46,7 @@ pub struct Replayed {
     pub path_rays: u64,
     /// Shadow rays.
     pub shadow_rays: u64,
-    /// Rays of the frame that are not replayed: those that follow light through glass, and those of shadow catchers.
+    /// What is not replayed: shadow rays that follow light through glass (the way there is), and those of shadow catchers.
     pub left_out: u64,
     /// Milliseconds for those of paths, launch after launch.
     pub path_ms: f64,
@@ -168,7 +170,7 @@ impl VulkanBackend {
         Ok(Replayed {
             path_rays,
             shadow_rays,
-            left_out: own.shadow_rays.saturating_sub(shadow_rays),
+            left_out: own.shadow_rays.saturating_sub(shadow_rays) + own.through_glass,
             path_ms: total(&own.alone(false))?,
             shadow_ms: total(&own.alone(true))?,
             ms: total(&own.together())?,
@@ -190,6 +192,8 @@ impl OwnRays {
             }
             self.batches.push(RayBatch { step, shadow, rays, found });
         }
+        let glass = queue::GLASS + 2 * parity;
+        self.through_glass += (glass..glass + 2).map(|q| u64::from(heads.at[q as usize].count)).sum::<u64>();
         // Shadow rays are counted by the step after.
         let last: u32 = (shadows..shadows + 2).map(|q| heads.at[q as usize].count).sum();
         (self.path_rays, self.shadow_rays) =
