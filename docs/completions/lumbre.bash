@@ -91,7 +91,7 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__bench)
-            opts="-h --camera --look-from --look-at --fov --sizes --depths --samples --frames --warm-up --budget --spp --time --markdown --json --max-depth --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --sky --sun --env --env-rotate --env-strength --device --validation --threads --scene --variant --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help path samples depth size hemisphere still equal-time"
+            opts="-h --camera --look-from --look-at --fov --sizes --depths --samples --frames --warm-up --budget --spp --time --markdown --json --max-depth --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --sky --sun --env --env-rotate --env-strength --device --validation --threads --scene --variant --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help path samples depth size hemisphere still share equal-time"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

@@ -59,7 +59,7 @@ pub mod targets;
 
 pub use backend::{
     Backend, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback, Frames, GpuChoice, GpuOptions,
-    OpenDevice, PassTime, RenderError, devices, prepare, prepare_cpu,
+    OpenDevice, PassTime, RenderError, Replayed, devices, prepare, prepare_cpu,
 };
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,

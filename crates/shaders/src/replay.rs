@@ -10,6 +10,12 @@ pub const TEXTURE_RGEN: &[u8] = include_bytes!("../spirv/replay/texture.rgen.spv
 pub const RCHIT: &[u8] = include_bytes!("../spirv/replay/hit.rchit.spv");
 /// Any hit of a ray of any kind. Constant 0, `bool`: all such surfaces let it pass; otherwise none.
 pub const RAHIT: &[u8] = include_bytes!("../spirv/replay/hit.rahit.spv");
+/// Any hit of a path's ray that asks surfaces as the path tracer does.
+pub const PATH_RAHIT: &[u8] = include_bytes!("../spirv/replay/path.rahit.spv");
+/// Any hit of such a shadow ray.
+pub const SHADOW_RAHIT: &[u8] = include_bytes!("../spirv/replay/shadow.rahit.spv");
+/// Rays and findings of a list of the path tracer: [`CollectPush`].
+pub const COLLECT: &[u8] = include_bytes!("../spirv/replay/collect.comp.spv");
 /// Miss of a path's ray.
 pub const PATH_RMISS: &[u8] = include_bytes!("../spirv/replay/path.rmiss.spv");
 /// Miss of a shadow ray.
@@ -23,6 +29,10 @@ pub mod kind {
     pub const CAMERA: u32 = 1;
     /// A shadow ray.
     pub const SHADOW: u32 = 2;
+    /// A shadow ray that solids let pass straight.
+    pub const SHADOW_STRAIGHT: u32 = 3;
+    /// No ray.
+    pub const NONE: u32 = 4;
 }
 
 /// A ray.
@@ -39,6 +49,8 @@ pub struct ReplayRay {
     pub t_max: f32,
     /// One of [`kind`].
     pub kind: u32,
+    /// Which surfaces it finds that are there only in part, where the replay asks as the path tracer does.
+    pub key: u32,
 }
 
 /// What it hits.
@@ -93,4 +105,24 @@ pub struct Push {
     pub count: u32,
     /// Nothing: a record without gaps.
     pub unused: u32,
+}
+
+/// What [`CollectPush`] asks for beside the shadow rays of a group of lights, in `path.group`.
+pub mod collect {
+    /// Rays of paths, before they are traced.
+    pub const PATHS: u32 = 2;
+    /// What they found.
+    pub const FOUND: u32 = 3;
+}
+
+/// Push constants of [`COLLECT`].
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub struct CollectPush {
+    /// What the path tracer is told.
+    pub path: crate::view::Push,
+    /// Address of the rays.
+    pub rays: u64,
+    /// Address of what they found.
+    pub hits: u64,
 }

@@ -10,6 +10,7 @@ use lumbre_shaders::camera::CameraRecord;
 use lumbre_shaders::layout::{GeometryRecord, MeshTable, SceneTable, TextureTable};
 use lumbre_shaders::medium::MediumStackRecord;
 use lumbre_shaders::post::PostPush;
+use lumbre_shaders::replay::{CollectPush, ReplayHit, ReplayRay};
 use lumbre_shaders::tables::Tables;
 use lumbre_shaders::view::{Push, QueueHead, QueueHeads, ViewTable};
 use rspirv::dr::{Module, Operand};
@@ -127,6 +128,23 @@ fn shaders() -> BTreeMap<String, Members> {
 fn shared_structs_lie_alike() {
     let found = differences(&shaders(), &rust());
     assert!(found.is_empty(), "{found:#?}");
+}
+
+/// What the shader that collects rays is told, and what it writes.
+#[test]
+fn collected_rays_lie_alike() {
+    let structs = shader(&rspirv::dr::load_bytes(lumbre_shaders::replay::COLLECT).expect("SPIR-V"));
+    let mut push = rust().into_iter().find(|(name, _)| *name == "Push").unwrap().1;
+    push.insert("rays".to_owned(), offset_of!(CollectPush, rays) as u32);
+    push.insert("hits".to_owned(), offset_of!(CollectPush, hits) as u32);
+    let mut rust = vec![
+        ("Push", push),
+        fields!("ReplayRay", ReplayRay { origin, t_min, dir, t_max, kind, key }),
+        fields!("ReplayHit", ReplayHit { t, instance, triangle, b }),
+    ];
+    assert_eq!(differences(&structs, &rust), Vec::<String>::new());
+    *rust[1].1.get_mut("key").unwrap() += 4;
+    assert_eq!(differences(&structs, &rust).len(), 1);
 }
 
 #[test]

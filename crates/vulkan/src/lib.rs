@@ -44,7 +44,7 @@ pub use gpu::{Gpu, Options};
 pub use instance::Validation;
 pub use kernel::Kernel;
 pub use memory::MemoryUse;
-pub use path::{Frames, PassTime, VulkanBackend};
+pub use path::{Frames, OwnRays, PassTime, RayBatch, Replayed, VulkanBackend};
 pub use post::Post;
 pub use ray_pipeline::{HitShaders, RayPipeline, RayShaders};
 pub use replay::Replay;

@@ -29,22 +29,44 @@ impl<'a> Replay<'a> {
         Self::with(scene, replay::RGEN, &Specialisation::new().bool(0, all_pass), cache)
     }
 
+    /// Surfaces are asked as the path tracer asks them: by the key of each ray. `constants`: those of the path tracer's shaders.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn asking(
+        scene: &'a SceneOnGpu,
+        constants: &Specialisation,
+        cache: &PipelineCache,
+    ) -> Result<Self, VulkanError> {
+        let any = [Some(replay::PATH_RAHIT), Some(replay::SHADOW_RAHIT)];
+        Self::with_any(scene, (replay::RGEN, any), constants, cache)
+    }
+
     fn with(
         scene: &'a SceneOnGpu,
         raygen: &[u8],
         constants: &Specialisation,
         cache: &PipelineCache,
     ) -> Result<Self, VulkanError> {
+        Self::with_any(scene, (raygen, [Some(replay::RAHIT); 2]), constants, cache)
+    }
+
+    /// `any`: any hit of rays of paths and of shadow rays.
+    fn with_any(
+        scene: &'a SceneOnGpu,
+        (raygen, [path, shadow]): (&[u8], [Option<&[u8]>; 2]),
+        constants: &Specialisation,
+        cache: &PipelineCache,
+    ) -> Result<Self, VulkanError> {
         let closest = Some(replay::RCHIT);
-        let any = Some(replay::RAHIT);
         let shaders = RayShaders {
             raygen,
             miss: [replay::PATH_RMISS, replay::SHADOW_RMISS],
             // The rows are those of `HitClass`: opaque, transmissive, covered.
             hits: [
                 [HitShaders { closest, any: None }, HitShaders::default()],
-                [HitShaders { closest, any: None }, HitShaders { closest: None, any }],
-                [HitShaders { closest, any }, HitShaders { closest: None, any }],
+                [HitShaders { closest, any: None }, HitShaders { closest: None, any: shadow }],
+                [HitShaders { closest, any: path }, HitShaders { closest: None, any: shadow }],
             ],
         };
         let pipeline = RayPipeline::new(scene, &shaders, constants, size_of::<Push>() as u32, cache)?;
@@ -59,13 +81,71 @@ impl<'a> Replay<'a> {
         self.answers(rays)
     }
 
-    /// An answer for each item, and how long the device took, milliseconds.
-    fn answers<Q: Pod, A: Pod>(&self, items: &[Q]) -> Result<(Vec<A>, f64), VulkanError> {
+    /// How long the device takes for groups of launches, milliseconds: for each of `runs`, which follow one that does not count, a number
+    /// for each group. The launches of a group run beside one another, the next group waits for them.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub fn times(&self, groups: &[Vec<&[ReplayRay]>], runs: u32) -> Result<Vec<Vec<f64>>, VulkanError> {
         let gpu = self.scene.gpu();
-        let (needed, limit) = (items.len() as u64, self.pipeline.max_invocations());
+        let mut upload = Upload::new(gpu);
+        let mut launches = Vec::new();
+        // A group's launches write to places of their own.
+        let mut most = 0;
+        for group in groups {
+            let (mut at, mut buffers) = (0, Vec::new());
+            for rays in group.iter().filter(|rays| !rays.is_empty()) {
+                self.check(rays.len())?;
+                let rays_there = Buffer::with_content(&mut upload, "rays", bytemuck::cast_slice(rays))?;
+                buffers.push((rays_there, at, rays.len() as u32));
+                at += (rays.len() * size_of::<ReplayHit>()) as u64;
+            }
+            most = most.max(at);
+            launches.push(buffers);
+        }
+        upload.finish()?;
+        let hits = Buffer::new(gpu, "hits", most, Purpose::Data)?;
+        let timer = Timer::new(gpu, groups.len() + 1)?;
+        let mut times = Vec::new();
+        for _ in 0..=runs {
+            gpu.run("replayed rays", |c| {
+                timer.reset(c);
+                timer.stamp(c, 0);
+                for (i, group) in launches.iter().enumerate() {
+                    for (rays, at, count) in group {
+                        let push = self.push(rays.address(), hits.address() + at, *count);
+                        self.pipeline.trace(c, bytemuck::bytes_of(&push), [*count, 1, 1]);
+                    }
+                    timer.stamp(c, i + 1);
+                    c.barrier();
+                }
+                Ok(())
+            })?;
+            times.push(timer.milliseconds()?.windows(2).map(|pair| pair[1] - pair[0]).collect());
+        }
+        times.remove(0);
+        Ok(times)
+    }
+
+    /// # Errors
+    /// If so many rays are too many for one launch.
+    fn check(&self, rays: usize) -> Result<(), VulkanError> {
+        let (needed, limit) = (rays as u64, self.pipeline.max_invocations());
         if needed > limit {
             return Err(VulkanError::TooLarge { what: "rays".to_owned(), needed, limit });
         }
+        Ok(())
+    }
+
+    fn push(&self, rays: u64, hits: u64, count: u32) -> Push {
+        let tables = self.tables.as_ref().map_or(0, Buffer::address);
+        Push { tables, scene: self.scene.address(), rays, hits, count, unused: 0 }
+    }
+
+    /// An answer for each item, and how long the device took, milliseconds.
+    fn answers<Q: Pod, A: Pod>(&self, items: &[Q]) -> Result<(Vec<A>, f64), VulkanError> {
+        let gpu = self.scene.gpu();
+        self.check(items.len())?;
         if items.is_empty() {
             return Ok((Vec::new(), 0.0));
         }
@@ -75,14 +155,7 @@ impl<'a> Replay<'a> {
         let size = (items.len() * size_of::<A>()) as u64;
         let output = Buffer::new(gpu, "hits", size, Purpose::Data)?;
         let result = Buffer::new(gpu, "hits on the host", size, Purpose::Readback)?;
-        let push = Push {
-            tables: self.tables.as_ref().map_or(0, Buffer::address),
-            scene: self.scene.address(),
-            rays: input.address(),
-            hits: output.address(),
-            count: items.len() as u32,
-            unused: 0,
-        };
+        let push = self.push(input.address(), output.address(), items.len() as u32);
         let timer = Timer::new(gpu, 2)?;
         gpu.run("replayed rays", |c| {
             timer.reset(c);

@@ -8,6 +8,7 @@ mod measure;
 mod path;
 mod place;
 mod samples;
+mod share;
 mod size;
 mod still;
 mod sweep;
@@ -32,6 +33,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<Code, Failure> {
         Which::Size => size::table(args),
         Which::Hemisphere => hemisphere::table(args),
         Which::Still => still::table(args),
+        Which::Share => share::table(args),
         Which::EqualTime => equal_time::table(args),
     })?;
     console::result(match (args.json, args.markdown) {

@@ -16,6 +16,8 @@ A frame adds samples to sums that stay on the device; nothing is read back but c
 frames per second are those of a program that only draws. Figures are medians over --frames
 frames after --warm-up frames that do not count, or over as many as fit into --budget. Path
 length is the mean number of rays of a path, that of the camera too, without shadow rays.
+`share` traces the rays of a frame again by themselves, in the same launches: what is left of
+the frame goes to shading and to waiting.
 Times of two runs are only comparable on the same quiet machine.
 
 Examples:
@@ -45,6 +47,8 @@ pub(crate) enum Table {
     Hemisphere,
     /// A whole picture of --spp samples per pixel, films read back
     Still,
+    /// Share of a GPU's frame that its rays take by themselves, nothing shaded (1280x720; 4, 10)
+    Share,
     /// The device beside the CPU, each for --time
     EqualTime,
 }

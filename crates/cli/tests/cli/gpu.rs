@@ -128,3 +128,26 @@ fn frames_of_the_gpu_have_its_own_times() {
     let ratio = length(row) / length(&cpu.last_json()["rows"][0]);
     assert!((0.9..1.1).contains(&ratio), "{ratio}");
 }
+
+#[test]
+fn a_share_of_the_frame_is_that_of_its_rays() {
+    lumbre(&format!("bench share {SMOOTH}"))
+        .exits(69)
+        .says("share: no GPU whose rays could be replayed (auto: ");
+    lumbre(&format!("bench share {SMOOTH} --device cpu")).exits(69).says("share: no GPU");
+    if !gpu() {
+        return;
+    }
+    let mut c = with_gpus();
+    c.args(["bench", "share", SMOOTH, "--device", "gpu", "--json", "--sizes", "16x12", "--frames", "2"]);
+    let line = Run::from(c.args(["--warm-up", "1"]).output().unwrap()).exits(0).last_json();
+    let rows = line["rows"].as_array().unwrap();
+    let depths: Vec<&serde_json::Value> = rows.iter().map(|r| &r["depth"]).collect();
+    assert_eq!(depths, [4, 10]);
+    for row in rows {
+        let number = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("no {key} in {row}"));
+        assert!((number("replay_ms") / number("frame_ms") / number("share") - 1.0).abs() < 1e-9, "{row}");
+        assert!(number("path_rays") >= 16.0 * 12.0 && number("shadow_rays") > 0.0, "{row}");
+        assert!(row["gpu_ms"]["trace"].as_f64().is_some_and(|ms| ms > 0.0), "{row}");
+    }
+}

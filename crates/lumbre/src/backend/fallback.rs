@@ -1,7 +1,7 @@
 //! A backend that goes on with another one where the first fails. Sums are exact and ranges of samples are known, so the picture is
 //! then made of the same samples as if nothing had happened.
 
-use super::{Backend, DeviceError, Frames, PassTime, RenderError};
+use super::{Backend, DeviceError, Frames, PassTime, RenderError, Replayed};
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
@@ -83,6 +83,10 @@ impl Backend for Fallback {
 
     fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, RenderError> {
         self.state().current.frames(view, size, spp, count)
+    }
+
+    fn replayed(&self, view: &View, size: [u32; 2], runs: u32) -> Result<Option<Replayed>, RenderError> {
+        self.state().current.replayed(view, size, runs)
     }
 }
 

@@ -37,6 +37,24 @@ pub struct Frames {
     pub passes: Vec<PassTime>,
 }
 
+/// What the rays of a frame take by themselves ([`Backend::replayed`]): traced in the order and the launches of the frame, with nothing
+/// shaded. Times are the device's own, milliseconds, medians of some runs; 0 where it has no clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Replayed {
+    /// Rays that go on a path, that of the camera too.
+    pub path_rays: u64,
+    /// Rays to lights.
+    pub shadow_rays: u64,
+    /// What is not replayed: shadow rays that follow light through glass (the way there is), and those of shadow catchers.
+    pub left_out: u64,
+    /// Time for those of paths, launch after launch.
+    pub path_ms: f64,
+    /// Time for those to lights, launch after launch.
+    pub shadow_ms: f64,
+    /// Time for all of them, those launched beside one another that the frame launches so.
+    pub ms: f64,
+}
+
 /// Frames by plain renders into one film.
 pub(super) fn by_renders(
     backend: &(impl Backend + ?Sized),

@@ -13,7 +13,7 @@ mod vulkan;
 
 pub use device::{Device, DeviceError, GpuChoice};
 pub use fallback::Fallback;
-pub use frames::{Frames, PassTime};
+pub use frames::{Frames, PassTime, Replayed};
 pub use list::{DeviceInfo, DeviceKind, Devices, devices};
 pub use open::{GpuOptions, OpenDevice};
 
@@ -94,6 +94,15 @@ pub trait Backend: Send + Sync {
     /// If the device fails.
     fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, RenderError> {
         frames::by_renders(self, view, size, spp, count)
+    }
+
+    /// Collects the rays of a frame of one sample a pixel and traces them again by themselves, so many times, for measurements; `None`
+    /// where the device does not know its rays apart from its shading.
+    ///
+    /// # Errors
+    /// If the device fails, or the picture has more pixels than it follows at a time.
+    fn replayed(&self, _view: &View, _size: [u32; 2], _runs: u32) -> Result<Option<Replayed>, RenderError> {
+        Ok(None)
     }
 }
 

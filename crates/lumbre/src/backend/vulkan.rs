@@ -1,6 +1,8 @@
 //! The GPUs, by `lumbre-vulkan`: its adapters, handles and errors in this crate's terms.
 
-use super::{Backend, Device, DeviceInfo, DeviceKind, Frames, GpuChoice, GpuOptions, PassTime, RenderError};
+use super::{
+    Backend, Device, DeviceInfo, DeviceKind, Frames, GpuChoice, GpuOptions, PassTime, RenderError, Replayed,
+};
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
@@ -116,6 +118,18 @@ impl Backend for VulkanBackend {
             path_rays: frames.path_rays,
             passes: frames.passes.into_iter().map(pass_time).collect(),
         })
+    }
+
+    fn replayed(&self, view: &View, size: [u32; 2], runs: u32) -> Result<Option<Replayed>, RenderError> {
+        let r = VulkanBackend::replayed(self, view, size, runs).map_err(|e| failed(self, &e))?;
+        Ok(Some(Replayed {
+            path_rays: r.path_rays,
+            shadow_rays: r.shadow_rays,
+            left_out: r.left_out,
+            path_ms: r.path_ms,
+            shadow_ms: r.shadow_ms,
+            ms: r.ms,
+        }))
     }
 }
 

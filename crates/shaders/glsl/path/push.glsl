@@ -87,6 +87,11 @@ layout(push_constant, scalar) uniform Push {
     uint parity;
     // Which group of lights shadow rays go to.
     uint group;
+#ifdef COLLECTS
+    // Where replay/collect.comp writes rays, and what they found.
+    ReplayRays rays;
+    ReplayHits hits;
+#endif
 } push;
 
 // The list of shadow rays to a group of lights that steps of a parity have asked for.

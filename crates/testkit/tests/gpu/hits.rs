@@ -80,7 +80,7 @@ fn rays(count: u32) -> Vec<ReplayRay> {
     let ray = |i: u32| {
         let origin = point(i, 1, 6.0);
         let dir = (point(i, 2, 2.5) - origin).normalize();
-        ReplayRay { origin: origin.into(), t_min: 0.0, dir: dir.into(), t_max: 1e30, kind: i % 3 }
+        ReplayRay { origin: origin.into(), t_min: 0.0, dir: dir.into(), t_max: 1e30, kind: i % 3, key: 0 }
     };
     (0..count).map(ray).collect()
 }

@@ -3,6 +3,7 @@
 mod built;
 mod common;
 mod hits;
+mod own_rays;
 mod paired;
 mod planted;
 mod running;

@@ -1,5 +1,9 @@
 //! A scene on a GPU, rendered into films. Twin of the loop over tiles: `cpu/src/backend.rs`.
 
+mod own_rays;
+
+pub use own_rays::{OwnRays, RayBatch, Replayed};
+
 use super::code::Code;
 use super::film::FilmOnGpu;
 use super::media::Solids;

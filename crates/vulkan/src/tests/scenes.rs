@@ -33,8 +33,14 @@ fn scene(count: u32) -> CompiledScene {
 /// The distance at which a ray from `z` down the axis hits something, if it does.
 fn distance(gpu: &Gpu, scene: &CompiledScene, z: f32) -> Result<Option<f32>, VulkanError> {
     let on_gpu = gpu.scene(scene, SceneOptions::default())?;
-    let ray =
-        ReplayRay { origin: [0.0, 0.0, z], t_min: 0.0, dir: [0.0, 0.0, -1.0], t_max: 1e30, kind: kind::PATH };
+    let ray = ReplayRay {
+        origin: [0.0, 0.0, z],
+        t_min: 0.0,
+        dir: [0.0, 0.0, -1.0],
+        t_max: 1e30,
+        kind: kind::PATH,
+        key: 0,
+    };
     let (hits, _) = Replay::new(&on_gpu, false, &PipelineCache::open_in(gpu, None))?.run(&[ray])?;
     Ok((hits[0].t >= 0.0).then_some(hits[0].t))
 }

@@ -1,0 +1,257 @@
+//! The path tracer's own rays, collected step by step, and how long the device takes to trace them with nothing else to do: what share of a
+//! frame that is, says how near the path tracer is to the device's ceiling. The collecting shader: `glsl/replay/collect.comp`.
+
+use super::{HeadsReadback, Shot, VulkanBackend, Work};
+use crate::compute::ComputePipeline;
+use crate::path::slices::Slice;
+use crate::{Buffer, Commands, Purpose, Replay, Timer, VulkanError};
+use lumbre_core::film::Film;
+use lumbre_core::settings::View;
+use lumbre_shaders::replay::{self, CollectPush, ReplayHit, ReplayRay, collect, kind};
+use lumbre_shaders::view::{Push, QueueHeads, queue};
+
+/// Invocations of a work group that collects.
+const GROUP: u32 = 64;
+
+/// Rays of one launch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayBatch {
+    /// How often their paths have scattered before this step.
+    pub step: u32,
+    /// To lights; else those of paths.
+    pub shadow: bool,
+    /// In the order of the launch.
+    pub rays: Vec<ReplayRay>,
+    /// What they found, but for the distance, which is 0. Of shadow rays: negative where they brought light, else 0.
+    pub found: Vec<ReplayHit>,
+}
+
+/// Rays of a frame of one sample a pixel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OwnRays {
+    /// In the order of the launches.
+    pub batches: Vec<RayBatch>,
+    /// Rays of paths as the frame counted them.
+    pub path_rays: u64,
+    /// Shadow rays likewise.
+    pub shadow_rays: u64,
+    /// Shadow rays that were traced on from one surface that lets light through to the next. In `batches` they end at what stops light.
+    pub through_glass: u64,
+}
+
+/// What a frame's own rays take by themselves; times are medians.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Replayed {
+    /// Rays of paths.
+    pub path_rays: u64,
+    /// Shadow rays.
+    pub shadow_rays: u64,
+    /// What is not replayed: shadow rays that follow light through glass (the way there is), and those of shadow catchers.
+    pub left_out: u64,
+    /// Milliseconds for those of paths, launch after launch.
+    pub path_ms: f64,
+    /// Milliseconds for shadow rays, launch after launch.
+    pub shadow_ms: f64,
+    /// Milliseconds for all as the path tracer launches them: shadow rays beside the next rays of their paths.
+    pub ms: f64,
+}
+
+/// Where rays of a list lie on the device and on the host.
+struct List {
+    rays: [Buffer; 2],
+    found: [Buffer; 2],
+}
+
+/// What collecting needs.
+struct Collector {
+    pipeline: ComputePipeline,
+    /// Shadow rays to far lights and to near ones; rays of paths.
+    lists: [List; 3],
+    heads: HeadsReadback,
+    timer: Timer,
+    most: u32,
+}
+
+impl OwnRays {
+    /// Rays in the batches, of paths or to lights.
+    pub fn count(&self, shadow: bool) -> u64 {
+        self.batches.iter().filter(|b| b.shadow == shadow).map(|b| b.rays.len() as u64).sum()
+    }
+
+    /// Launches of one kind, one after another.
+    fn alone(&self, shadow: bool) -> Vec<Vec<&[ReplayRay]>> {
+        self.batches.iter().filter(|b| b.shadow == shadow).map(|b| vec![&*b.rays]).collect()
+    }
+
+    /// As the path tracer launches them.
+    fn together(&self) -> Vec<Vec<&[ReplayRay]>> {
+        let steps = self.batches.iter().map(|b| b.step).max().map_or(0, |last| last + 2);
+        let in_step = |step: u32| {
+            let launched = move |b: &&RayBatch| b.step + u32::from(b.shadow) == step;
+            self.batches.iter().filter(launched).map(|b| &*b.rays).collect()
+        };
+        (0..steps).map(in_step).collect()
+    }
+}
+
+impl VulkanBackend {
+    /// The rays of the first frame of a view, one sample a pixel.
+    ///
+    /// # Errors
+    /// If the picture has more pixels than there is room for paths, memory is out, or the device is lost.
+    pub fn own_rays(&self, view: &View, size: [u32; 2]) -> Result<OwnRays, VulkanError> {
+        let mut work = self.lock();
+        let shot = self.shot(&mut work, view, &Film::new(size[0], size[1]), 1)?;
+        let paths = work.paths.as_ref().expect("the shot made them");
+        let (needed, limit) = (super::paths_per_sample(size), u64::from(paths.capacity()));
+        if needed > limit {
+            return Err(VulkanError::TooLarge { what: "paths".to_owned(), needed, limit });
+        }
+        let slice = Slice { first_pixel: [0, 0], size, samples: 0..1 };
+        let collector = Collector::new(self, view, &shot, needed as u32)?;
+        self.gpu.run("beginning paths", |commands| {
+            shot.passes.record(commands, paths, &collector.timer, (&shot.of(&slice), true, 0, false));
+            Ok(())
+        })?;
+        let mut own = OwnRays::default();
+        for step in 0.. {
+            let push = Push { parity: step % 2, ..shot.of(&slice) };
+            let heads = self.collect_step(&work, &shot, &collector, &push)?;
+            own.add(step, &collector, &heads);
+            if heads.at[(queue::PATHS + 1 - push.parity) as usize].count == 0 {
+                break;
+            }
+        }
+        Ok(own)
+    }
+
+    /// Takes a step of all paths and leaves its rays on the host.
+    fn collect_step(
+        &self,
+        work: &Work,
+        shot: &Shot,
+        collector: &Collector,
+        push: &Push,
+    ) -> Result<QueueHeads, VulkanError> {
+        let paths = work.paths.as_ref().expect("the shot made them");
+        self.gpu.run("collecting rays", |commands| {
+            collector.collect(commands, push, collect::PATHS);
+            commands.barrier();
+            shot.passes.record(commands, paths, &collector.timer, (push, false, 1, false));
+            [collect::FOUND, 0, 1].into_iter().for_each(|what| collector.collect(commands, push, what));
+            shot.passes.copy_heads(commands, paths, &collector.heads);
+            commands.barrier();
+            collector.lists.iter().for_each(|list| list.copy(commands));
+            Ok(())
+        })?;
+        Ok(collector.heads.read())
+    }
+
+    /// Replays rays through this scene; surfaces that are there only in part are asked with the key of each ray.
+    ///
+    /// # Errors
+    /// If the driver refuses the pipeline, or memory is out.
+    pub fn replay(&self, view: &View) -> Result<Replay<'_>, VulkanError> {
+        Replay::asking(&self.scene, &self.constants.with(&view.settings), &self.cache)
+    }
+
+    /// How long the rays of a view's first frame take by themselves, the median of `runs`.
+    ///
+    /// # Errors
+    /// As [`Self::own_rays`].
+    pub fn replayed(&self, view: &View, size: [u32; 2], runs: u32) -> Result<Replayed, VulkanError> {
+        let (own, replay) = (self.own_rays(view, size)?, self.replay(view)?);
+        let total = |groups: &[Vec<&[ReplayRay]>]| -> Result<f64, VulkanError> {
+            let mut all: Vec<f64> = replay.times(groups, runs)?.iter().map(|run| run.iter().sum()).collect();
+            all.sort_by(f64::total_cmp);
+            Ok(all.get(all.len() / 2).copied().unwrap_or(0.0))
+        };
+        let (path_rays, shadow_rays) = (own.count(false), own.count(true));
+        Ok(Replayed {
+            path_rays,
+            shadow_rays,
+            left_out: own.shadow_rays.saturating_sub(shadow_rays) + own.through_glass,
+            path_ms: total(&own.alone(false))?,
+            shadow_ms: total(&own.alone(true))?,
+            ms: total(&own.together())?,
+        })
+    }
+}
+
+impl OwnRays {
+    /// Adds the rays of a step.
+    fn add(&mut self, step: u32, collector: &Collector, heads: &QueueHeads) {
+        let parity = step % 2;
+        let [far, near, path] = &collector.lists;
+        let shadows = queue::SHADOW + 2 * parity;
+        for (list, queue) in [(path, queue::PATHS + parity), (far, shadows), (near, shadows + 1)] {
+            let (shadow, count) = (queue >= queue::SHADOW, heads.at[queue as usize].count as usize);
+            let (rays, found) = list.read(count);
+            if shadow && rays.is_empty() {
+                continue;
+            }
+            self.batches.push(RayBatch { step, shadow, rays, found });
+        }
+        let glass = queue::GLASS + 2 * parity;
+        self.through_glass += (glass..glass + 2).map(|q| u64::from(heads.at[q as usize].count)).sum::<u64>();
+        // Shadow rays are counted by the step after.
+        let last: u32 = (shadows..shadows + 2).map(|q| heads.at[q as usize].count).sum();
+        (self.path_rays, self.shadow_rays) =
+            (heads.path_rays.into(), u64::from(heads.shadow_rays) + u64::from(last));
+    }
+}
+
+impl Collector {
+    /// For lists of at most `most` paths.
+    fn new(backend: &VulkanBackend, view: &View, shot: &Shot, most: u32) -> Result<Self, VulkanError> {
+        let constants = backend.constants.with(&view.settings);
+        let push = size_of::<CollectPush>() as u32;
+        let pipeline =
+            ComputePipeline::of_scene(&backend.scene, replay::COLLECT, &constants, push, &backend.cache)?;
+        let buffers = |size: usize| -> Result<[Buffer; 2], VulkanError> {
+            let new =
+                |purpose| Buffer::new(&backend.gpu, "collected rays", u64::from(most) * size as u64, purpose);
+            Ok([new(Purpose::Data)?, new(Purpose::Readback)?])
+        };
+        let list = || -> Result<List, VulkanError> {
+            Ok(List { rays: buffers(size_of::<ReplayRay>())?, found: buffers(size_of::<ReplayHit>())? })
+        };
+        Ok(Collector {
+            pipeline,
+            lists: [list()?, list()?, list()?],
+            heads: HeadsReadback::new(&backend.gpu)?,
+            timer: Timer::new(&backend.gpu, shot.passes.stamps(false, 1, false).len().max(1) + 1)?,
+            most,
+        })
+    }
+
+    /// Collects one thing: `what` is a group of lights or one of [`collect`].
+    fn collect(&self, commands: &Commands<'_>, push: &Push, what: u32) {
+        let list = &self.lists[what.min(collect::PATHS) as usize];
+        let push = CollectPush {
+            path: Push { group: what, ..*push },
+            rays: list.rays[0].address(),
+            hits: list.found[0].address(),
+        };
+        self.pipeline.dispatch(commands, bytemuck::bytes_of(&push), [self.most.div_ceil(GROUP), 1]);
+    }
+}
+
+impl List {
+    fn copy(&self, commands: &Commands<'_>) {
+        for [device, host] in [&self.rays, &self.found] {
+            commands.copy((device, 0), (host, 0), device.size());
+        }
+    }
+
+    /// The first `count` places, but for those without a ray.
+    fn read(&self, count: usize) -> (Vec<ReplayRay>, Vec<ReplayHit>) {
+        let rays = values::<ReplayRay>(&self.rays[1], count);
+        rays.zip(values::<ReplayHit>(&self.found[1], count)).filter(|(ray, _)| ray.kind != kind::NONE).unzip()
+    }
+}
+
+/// The first `count` values of a buffer.
+fn values<T: bytemuck::Pod>(buffer: &Buffer, count: usize) -> impl Iterator<Item = T> + '_ {
+    buffer.read().chunks_exact(size_of::<T>()).take(count).map(bytemuck::pod_read_unaligned)
+}
