@@ -1,5 +1,5 @@
 // What a pipeline is specialised for: settings of the render, and what its scene has. What is switched off costs nothing.
-// Twin: vulkan/src/variant.rs, which sets them. Ids 10 to 29 belong to bsdf/features.glsl, 30 to 49 to the random stream, camera and filter.
+// Twin: vulkan/src/path/variant.rs, which sets them. Ids 10 to 29 belong to bsdf/features.glsl, 30 to 49 to the random stream, camera and filter.
 #ifndef VARIANTS_GLSL
 #define VARIANTS_GLSL
 

@@ -158,3 +158,27 @@ fn a_member_that_moved_is_found() {
     }
     assert_eq!(differences(&BTreeMap::new(), &rust()).len(), rust().len());
 }
+
+/// Numbers that both sides write down.
+#[test]
+fn shared_constants_are_the_same() {
+    let glsl = |file: &str, name: &str| -> u64 {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl").join(file);
+        let text = std::fs::read_to_string(path).unwrap();
+        let start = format!("const uint {name} = ");
+        let value = text
+            .lines()
+            .find_map(|l| l.strip_prefix(&start))
+            .unwrap_or_else(|| panic!("no {name} in {file}"));
+        value.split('u').next().unwrap().parse().unwrap()
+    };
+    let [plain, solids] = lumbre_shaders::view::STATE_QUADS;
+    assert_eq!(glsl("path/state.glsl", "STATE_QUADS_PLAIN"), plain);
+    assert_eq!(glsl("path/state.glsl", "STATE_QUADS"), solids);
+    assert_eq!(glsl("path/push.glsl", "QUEUES"), lumbre_shaders::view::QUEUES as u64);
+    let queue = |name| glsl("path/push.glsl", name);
+    use lumbre_shaders::view::queue::{CATCHERS, GLASS, PATHS, SHADOW};
+    let lists = [queue("QUEUE_PATHS"), queue("QUEUE_SHADOW"), queue("QUEUE_GLASS"), queue("QUEUE_CATCHERS")];
+    assert_eq!(lists, [PATHS, SHADOW, GLASS, CATCHERS].map(u64::from));
+    assert_eq!(glsl("scene/layout.glsl", "RAY_KINDS"), u64::from(lumbre_shaders::layout::RAY_KINDS));
+}

@@ -70,7 +70,7 @@ impl Bounds {
     /// For scenes without textures.
     pub const PLAIN: Bounds =
         Bounds { close: 0.99, bias: 1e-3, z: 4.5, color: 1e-3, position: 0.0, planes: 5e-3 };
-    /// For scenes with textures, which devices filter with fewer digits: the weights of texels have eight bits.
+    /// For scenes with textures: their texels are read at coordinates that differ in the last digits, and normal maps pass that on.
     pub const TEXTURED: Bounds = Bounds { close: 0.95, color: 1e-2, ..Bounds::PLAIN };
 
     /// For scenes of this radius in metres, some of whose triangles are as large: hit points come from barycentrics, which have 24 bits

@@ -12,13 +12,11 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 layout(location = 0) rayPayloadEXT HitPayload hit_payload;
 layout(location = 1) rayPayloadEXT ShadowPayload shadow_payload;
 
-// Rays traced so far: of paths, and to lights.
-uint path_rays = 0u;
+// Shadow rays traced so far.
 uint shadow_rays = 0u;
 
 // The closest surface that a path's ray finds, in `hit_payload`; camera rays do not find the back faces of single-sided opaque materials.
 void tracer_trace(Ray ray, uint key, bool camera) {
-    path_rays += 1u;
     hit_payload.geometry = key;
     uint flags = camera && !SHADE_BACK_FACES ? gl_RayFlagsCullBackFacingTrianglesEXT : gl_RayFlagsNoneEXT;
     traceRayEXT(tlas, flags, 0xff, RAY_RADIANCE, 0, RAY_RADIANCE, ray.origin, ray.t_min, ray.dir, ray.t_max, 0);

@@ -121,7 +121,6 @@ impl HeadsReadback {
 /// The pipelines of all passes that a scene needs.
 pub(super) struct Passes {
     needs: Needs,
-    light_sampling: bool,
     generate: ComputePipeline,
     advance: ComputePipeline,
     trace: RayPipeline,
@@ -179,7 +178,6 @@ impl Passes {
         let shadows = light_sampling && needs.lights.contains(&true);
         Ok(Passes {
             needs,
-            light_sampling,
             generate: compute(&code.generate)?,
             advance: compute(&code.advance)?,
             trace: rays(&code.trace)?,
@@ -209,7 +207,7 @@ impl Passes {
 
     /// The groups of lights that shadow rays go to.
     fn groups(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..2).filter(|&g| self.light_sampling && self.needs.lights[g as usize])
+        (0..2).filter(|&g| self.needs.lights[g as usize])
     }
 
     /// Records the beginning of a slice's paths.
