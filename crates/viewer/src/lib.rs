@@ -1,0 +1,2 @@
+//! The interactive window.
+#![forbid(unsafe_code)]
