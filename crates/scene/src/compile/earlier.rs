@@ -48,10 +48,28 @@ pub(super) fn same<T: Pod>(a: &[T], b: &[T]) -> bool {
     cast_slice::<T, u8>(a) == cast_slice::<T, u8>(b)
 }
 
-/// What was made, or what was there before if it is the same, so that it is shared.
-pub(super) fn share<T: Pod>(made: Vec<T>, earlier: Option<&Arc<[T]>>) -> Arc<[T]> {
-    match earlier {
-        Some(earlier) if same(earlier, &made) => earlier.clone(),
-        _ => made.into(),
+/// Takes the arrays of `earlier` wherever those that were made are the same, so that clones of both share them.
+pub(super) fn share(earlier: &CompiledScene, made: &mut CompiledScene) {
+    fn one<T: Pod>(earlier: &Arc<[T]>, made: &mut Arc<[T]>) {
+        if !Arc::ptr_eq(earlier, made) && same(earlier, made) {
+            *made = earlier.clone();
+        }
     }
+    one(&earlier.positions, &mut made.positions);
+    one(&earlier.normals, &mut made.normals);
+    one(&earlier.vertices, &mut made.vertices);
+    one(&earlier.triangles, &mut made.triangles);
+    one(&earlier.triangle_materials, &mut made.triangle_materials);
+    one(&earlier.emissive_ranks, &mut made.emissive_ranks);
+    one(&earlier.instances, &mut made.instances);
+    one(&earlier.transforms, &mut made.transforms);
+    one(&earlier.texels, &mut made.texels);
+    one(&earlier.lights, &mut made.lights);
+    one(&earlier.near_light_cdf, &mut made.near_light_cdf);
+    one(&earlier.far_light_cdf, &mut made.far_light_cdf);
+    one(&earlier.triangle_lights, &mut made.triangle_lights);
+    one(&earlier.environment_pixels, &mut made.environment_pixels);
+    one(&earlier.environment_row_cdf, &mut made.environment_row_cdf);
+    one(&earlier.environment_cell_cdf, &mut made.environment_cell_cdf);
+    one(&earlier.light_powers, &mut made.light_powers);
 }

@@ -1,6 +1,5 @@
 //! The map of light from far away, with its distribution.
 
-use super::earlier::share;
 use super::{CompileError, Earlier};
 use crate::compiled::lights::EnvironmentRecord;
 use crate::compiled::{CompiledScene, NONE};
@@ -46,11 +45,10 @@ pub(super) fn compile(
     let texel = |p: &Rgb| (*p * strength).map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, BRIGHTEST) });
     let pixels: Vec<Rgb> = pixels.iter().map(texel).collect();
     let (rows, cells, mean) = environment::build_distribution(width, height, &pixels);
-    let earlier = earlier.map(|e| e.compiled);
     out.environment = record(width, height);
-    out.environment_pixels = share(pixels, earlier.map(|e| &e.environment_pixels));
-    out.environment_row_cdf = share(rows, earlier.map(|e| &e.environment_row_cdf));
-    out.environment_cell_cdf = share(cells, earlier.map(|e| &e.environment_cell_cdf));
+    out.environment_pixels = pixels.into();
+    out.environment_row_cdf = rows.into();
+    out.environment_cell_cdf = cells.into();
     out.environment_mean = mean;
     Ok(())
 }

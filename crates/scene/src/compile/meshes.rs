@@ -1,6 +1,5 @@
 //! What of meshes depends on their materials, and the instances of them.
 
-use super::earlier::share;
 use super::geometry::Meshes;
 use super::{CompileError, Earlier, Placed, grow, index32};
 use crate::compiled::geometry::{InstanceRecord, TransformKey};
@@ -25,7 +24,7 @@ pub(super) fn compile(
         Some(earlier) => out.emissive_ranks = earlier.compiled.emissive_ranks.clone(),
         None => add_emissive_ranks(&uses, out)?,
     }
-    add_instances(scene, placed, (meshes, earlier), out)?;
+    add_instances(scene, placed, meshes, out)?;
     out.bounds = match unchanged.filter(|e| e.stands(&out.instances, &out.transforms)) {
         Some(earlier) => earlier.compiled.bounds,
         None => bounds(out),
@@ -85,7 +84,7 @@ fn add_emissive_ranks(uses: &[Uses], out: &mut CompiledScene) -> Result<(), Comp
 fn add_instances(
     scene: &Scene,
     placed: &[Placed],
-    (meshes, earlier): (&Meshes, Option<&Earlier<'_>>),
+    meshes: &Meshes,
     out: &mut CompiledScene,
 ) -> Result<(), CompileError> {
     let mut record_of = vec![NONE; scene.meshes.len()];
@@ -106,7 +105,7 @@ fn add_instances(
         });
         transforms.push(TransformKey::new(p.to_world, 0.0));
     }
-    out.transforms = share(transforms, earlier.map(|e| &e.compiled.transforms));
+    out.transforms = transforms.into();
     out.instances = instances.into();
     Ok(())
 }

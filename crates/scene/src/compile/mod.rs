@@ -104,6 +104,9 @@ fn build(scene: &Scene, earlier: Option<&Earlier<'_>>) -> Result<Compiled, Compi
     let meshes = geometry::compile(scene, &placed, earlier, &mut out, &mut notes)?;
     meshes::compile(scene, &placed, (&meshes, earlier), &mut out)?;
     lights::compile(scene, &lights, earlier, &mut out, &mut notes)?;
+    if let Some(earlier) = earlier {
+        earlier::share(earlier.compiled, &mut out);
+    }
     Ok(Compiled { scene: out, notes })
 }
 

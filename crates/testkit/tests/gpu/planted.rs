@@ -257,7 +257,9 @@ fn in_lights() {
             ("directional", &punctual(kind::DIRECTIONAL, MORE)),
             ("sun", &|scene, _| scene.sun.radiance *= MORE),
             ("size of the sun", &|scene, _| scene.sun.one_minus_cos *= MORE),
-            ("environment", &|scene, _| all(&mut scene.environment_pixels).iter_mut().for_each(|p| *p *= MORE)),
+            ("environment", &|scene, _| {
+                all(&mut scene.environment_pixels).iter_mut().for_each(|p| *p *= MORE)
+            }),
             ("triangles", &|scene, _| {
                 all(&mut scene.triangle_lights).iter_mut().for_each(|t| t.radiance *= MORE);
             }),
