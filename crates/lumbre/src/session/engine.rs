@@ -1,7 +1,7 @@
 //! The thread of a session: what is wanted becomes frames.
 
 use super::pace::{Pace, finer, scaled};
-use super::show::{Shot, Show, factor, is_automatic, offset};
+use super::show::{Shot, Show, is_automatic, offset};
 use super::sink::{Event, Frame, FrameSink, FrameStats};
 use super::{Layer, Shared, Wanted, layers};
 use crate::backend::{Backend, Canvas, PassTime, RenderError};
@@ -431,7 +431,7 @@ impl Engine {
         use lumbre_core::color::Exposure;
         let look = self.wanted.look;
         let target = look.look.exposure_factor(film) * offset(&look);
-        crate::Look { exposure: Exposure::Ev(factor(&look, target, None).log2()), ..look.look }
+        crate::Look { exposure: Exposure::Ev(target.log2()), ..look.look }
     }
 }
 

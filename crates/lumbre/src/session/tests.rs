@@ -1,3 +1,5 @@
+//! Sessions on the CPU: what is sent after what was wanted.
+
 use super::*;
 use crate::{Device, Look, Targets, output, prepare, render};
 use glam::{Mat4, Vec3};

@@ -1,6 +1,7 @@
 //! Light from infinitely far away.
 
 use lumbre_core::Rgb;
+use std::sync::Arc;
 
 /// A latitude-longitude map of radiance, row 0 at +y. The centre of the map lies at -z, and longitude grows to the right
 /// as seen from inside: +x lies a quarter of the width to the right of the centre.
@@ -10,8 +11,8 @@ pub struct EnvironmentMap {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// `width * height` radiances, row by row; finite and not negative.
-    pub pixels: Vec<Rgb>,
+    /// `width * height` radiances, row by row; finite and not negative. Clones share them.
+    pub pixels: Arc<[Rgb]>,
 }
 
 /// What a ray sees that hits nothing.

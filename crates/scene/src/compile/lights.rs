@@ -61,7 +61,9 @@ fn check_count(punctual: usize, out: &CompiledScene) -> Result<(), CompileError>
     };
     let of_mesh: Vec<u64> = out.meshes.iter().map(emissive).collect();
     let total: u64 =
-        out.instances.iter().map(|i| of_mesh[i.mesh as usize]).sum::<u64>() + punctual as u64 + 2;
+        out.instances.iter().filter(|i| i.mask != 0).map(|i| of_mesh[i.mesh as usize]).sum::<u64>()
+            + punctual as u64
+            + 2;
     if total > u64::from(MOST_LIGHTS) {
         return Err(CompileError::TooLarge {
             what: "lights (emissive triangles of every instance)",
@@ -98,7 +100,7 @@ fn add_triangles(
     powers: &mut Vec<f32>,
 ) -> Result<(), CompileError> {
     let mesh = out.meshes[out.instances[instance].mesh as usize];
-    if mesh.first_emissive_rank == NONE {
+    if mesh.first_emissive_rank == NONE || out.instances[instance].mask == 0 {
         return Ok(());
     }
     out.instances[instance].first_light = out.lights.len() as u32;
@@ -235,7 +237,7 @@ fn add_environment(
                 let message = format!("{}x{} texels, but {} values", map.width, map.height, map.pixels.len());
                 return Err(CompileError::Invalid { place: "environment".into(), message });
             }
-            (map.width, map.height, map.pixels.clone())
+            (map.width, map.height, map.pixels.to_vec())
         }
     };
     let strength = environment.strength.max(0.0);

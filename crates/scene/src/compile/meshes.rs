@@ -39,7 +39,7 @@ pub(super) fn compile(
             first_transform: index32(out.transforms.len(), "transforms")?,
             transform_count: 1,
             first_light: NONE,
-            mask: u32::MAX,
+            mask: if p.visible { u32::MAX } else { 0 },
             node: p.node,
         });
         out.transforms.push(TransformKey::new(p.to_world, 0.0));

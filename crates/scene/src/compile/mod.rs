@@ -11,7 +11,7 @@ mod tangents;
 mod textures;
 
 use crate::compiled::CompiledScene;
-use crate::{MeshId, Scene};
+use crate::{MeshId, PlacedNode, Scene};
 use glam::{Affine3A, Mat4, Vec3};
 
 /// Why a scene cannot be compiled.
@@ -59,6 +59,7 @@ struct Placed {
     node: u32,
     mesh: MeshId,
     to_world: Affine3A,
+    visible: bool,
 }
 
 /// Compiles a scene.
@@ -79,7 +80,7 @@ type PlacedLight = (crate::LightId, Affine3A);
 /// Collects what the nodes place.
 fn walk(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Placed>, Vec<PlacedLight>), CompileError> {
     let (mut placed, mut lights) = (Vec::new(), Vec::new());
-    for (id, world) in scene.world_nodes() {
+    for PlacedNode { id, to_world, visible } in scene.placed_nodes() {
         let node = &scene.nodes[id.index()];
         let place = || format!("/nodes/{}", id.0);
         check(node.camera.map(|c| c.0), scene.cameras.len(), "camera", place)?;
@@ -88,10 +89,10 @@ fn walk(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Placed>, Vec<Plac
         for child in &node.children {
             check(Some(child.0), scene.nodes.len(), "node", place)?;
         }
-        let to_world = affine(world);
+        let to_world = affine(to_world);
         if let Some(mesh) = node.mesh {
             if invertible(to_world) {
-                placed.push(Placed { node: id.0, mesh, to_world });
+                placed.push(Placed { node: id.0, mesh, to_world, visible });
             } else {
                 notes.push(format!(
                     "/nodes/{}: its transform has no volume or is not finite; its mesh is not drawn",
@@ -99,7 +100,7 @@ fn walk(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Placed>, Vec<Plac
                 ));
             }
         }
-        if let Some(light) = node.light {
+        if let Some(light) = node.light.filter(|_| visible) {
             lights.push((light, to_world));
         }
     }

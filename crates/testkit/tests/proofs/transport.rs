@@ -164,7 +164,7 @@ fn textured_lamp() {
             [r, g, b, 255]
         })
         .collect();
-    scene.images.push(Image { name: "lamp".into(), width: 8, height: 8, rgba8 });
+    scene.add_image(Image { name: "lamp".into(), width: 8, height: 8, rgba8 });
     let texture =
         Texture { image: ImageId(0), wrap_s: Wrap::Repeat, wrap_t: Wrap::Repeat, filter: Filter::Linear };
     scene.textures.push(texture);
