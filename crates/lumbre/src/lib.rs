@@ -2,7 +2,7 @@
 //! film, read the film.
 //!
 //! It never prints, exits, installs a logger or panics on what it is given, but where a function says
-//! so under "Panics"; its types are `Send` and `Sync`. It needs Rust 1.90.
+//! so under "Panics"; its types are `Send` and `Sync`. It needs Rust 1.95.
 //!
 //! # A picture without any file
 //!

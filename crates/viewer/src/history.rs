@@ -45,6 +45,11 @@ impl<T: Clone + PartialEq> History<T> {
         Some(self.now.clone())
     }
 
+    /// The document after the last step.
+    pub fn now(&self) -> &T {
+        &self.now
+    }
+
     /// Whether there is a step to take back.
     pub fn can_undo(&self) -> bool {
         !self.past.is_empty()

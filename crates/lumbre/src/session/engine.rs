@@ -11,7 +11,7 @@ use crate::{Device, GpuOptions};
 use lumbre_core::Film;
 use lumbre_core::color::ease_share;
 use lumbre_core::control::Control;
-use lumbre_core::settings::View;
+use lumbre_core::settings::{RenderSettings, View};
 use lumbre_scene::{CompiledScene, Scene, compile};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};
@@ -422,7 +422,9 @@ impl<'a> Run<'a> {
 impl Engine {
     /// What is rendered.
     fn view(&self, frame: u32) -> View {
-        View { camera: self.wanted.camera, settings: self.wanted.settings, frame }
+        let object_colors = self.wanted.layer == Layer::Objects;
+        let settings = RenderSettings { object_colors, ..self.wanted.settings };
+        View { camera: self.wanted.camera, settings, frame }
     }
 
     /// The look with its exposure as it is shown once it has arrived.

@@ -43,6 +43,7 @@ impl Wanted {
             || self.size != other.size
             || self.settings != other.settings
             || self.restarts != other.restarts
+            || (other.layer == Layer::Objects) != (self.layer == Layer::Objects)
             || (other.moving && !self.moving)
     }
 

@@ -2,7 +2,13 @@
 //!
 //! Ids are checked here, so that backends may index without asking. What cannot be drawn but does no harm (a mesh squeezed flat
 //! by its transform, a punctual light without power) is left out and named in the notes.
+//!
+//! A scene that differs little from one that was compiled is made from that: each stage asks whether what it reads is still the same
+//! ([`earlier`]) and then shares what it made. The result is the same either way.
 
+mod earlier;
+mod environment;
+mod geometry;
 mod lights;
 mod lobes;
 mod materials;
@@ -11,7 +17,9 @@ mod tangents;
 mod textures;
 
 use crate::compiled::CompiledScene;
+use crate::compiled::changes::SceneChanges;
 use crate::{MeshId, PlacedNode, Scene};
+use earlier::Earlier;
 use glam::{Affine3A, Mat4, Vec3};
 
 /// Why a scene cannot be compiled.
@@ -63,14 +71,42 @@ struct Placed {
 }
 
 /// Compiles a scene.
+///
+/// # Errors
+/// If an id points nowhere, an array has the wrong length, or there is more than can be drawn.
 pub fn compile(scene: &Scene) -> Result<Compiled, CompileError> {
+    build(scene, None)
+}
+
+/// Compiles `after` and says in what it differs from `compiled`, which [`compile`] or this function made of `before`. The result is that
+/// of [`compile`] bit for bit; what both scenes share ([`Scene`]) and what follows from it is taken from `compiled`. So edits of
+/// materials, lights, nodes and environment cost what these cost, unless a material begins to need tangents. Edits of meshes or
+/// images cost as much as [`compile`].
+///
+/// # Errors
+/// As [`compile`].
+pub fn recompile(
+    before: &Scene,
+    compiled: &CompiledScene,
+    after: &Scene,
+) -> Result<(Compiled, SceneChanges), CompileError> {
+    let made = build(after, Earlier::new(before, compiled, after).as_ref())?;
+    let changes = SceneChanges::between(compiled, &made.scene);
+    Ok((made, changes))
+}
+
+fn build(scene: &Scene, earlier: Option<&Earlier<'_>>) -> Result<Compiled, CompileError> {
     let mut out = CompiledScene::default();
     let mut notes = Vec::new();
-    textures::compile(scene, &mut out)?;
+    textures::compile(scene, earlier, &mut out)?;
     materials::compile(scene, &mut out, &mut notes)?;
     let (placed, lights) = walk(scene, &mut notes)?;
-    let kept = meshes::compile(scene, &placed, &mut out, &mut notes)?;
-    lights::compile(scene, &lights, &kept, &mut out, &mut notes)?;
+    let meshes = geometry::compile(scene, &placed, earlier, &mut out, &mut notes)?;
+    meshes::compile(scene, &placed, (&meshes, earlier), &mut out)?;
+    lights::compile(scene, &lights, earlier, &mut out, &mut notes)?;
+    if let Some(earlier) = earlier {
+        earlier::share(earlier.compiled, &mut out);
+    }
     Ok(Compiled { scene: out, notes })
 }
 

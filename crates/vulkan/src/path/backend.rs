@@ -454,6 +454,8 @@ impl VulkanBackend {
             roulette: settings.roulette.unwrap_or(u32::MAX),
             clamp_to: settings.clamp.unwrap_or(f32::INFINITY),
             filter_kind: settings.filter as u32,
+            object_colors: settings.object_colors.into(),
+            unused: 0,
             camera: (&view.camera).into(),
             media: media.into(),
         }

@@ -7,7 +7,7 @@ use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::material::{MaterialRecord, flag};
 use lumbre_scene::compiled::surroundings::{Crossing, surroundings};
 
-/// All triangles of solids.
+/// All triangles of solids that are not hidden.
 pub(super) struct Solids {
     materials: Vec<MaterialRecord>,
     /// Corners in world space, counter-clockwise seen from the front, and the material.
@@ -17,7 +17,7 @@ pub(super) struct Solids {
 impl Solids {
     pub(super) fn new(scene: &CompiledScene) -> Self {
         let mut triangles = Vec::new();
-        for instance in &scene.instances {
+        for instance in scene.instances.iter().filter(|i| i.mask != 0) {
             let mesh = &scene.meshes[instance.mesh as usize];
             let key = &scene.transforms[instance.first_transform as usize];
             for triangle in mesh.first_triangle..mesh.first_triangle + mesh.triangle_count {
