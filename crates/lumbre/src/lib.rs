@@ -44,6 +44,8 @@ pub mod backend;
 pub mod camera;
 pub mod cancel;
 pub mod compare;
+#[cfg(feature = "files")]
+pub mod edits;
 pub mod estimate;
 #[cfg(feature = "files")]
 pub mod fingerprint;

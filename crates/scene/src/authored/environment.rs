@@ -51,7 +51,7 @@ impl Sun {
     pub const STRENGTH: f32 = 15.0;
 
     /// Colour of the sun's light: a little warmer than the white of the picture (D65), as through some 30 degrees of air; ours.
-    const COLOR: Rgb = Rgb::new(1.0, 0.93, 0.82);
+    pub const COLOR: Rgb = Rgb::new(1.0, 0.93, 0.82);
 
     /// The sun that flags and scene files ask for: angles in degrees, and the illuminance in lux on a surface that faces it.
     pub fn daylight(elevation_deg: f32, azimuth_deg: f32, strength: f32) -> Sun {
