@@ -4,12 +4,13 @@
 use crate::places::{MeshBounds, mesh_bounds};
 use eframe::egui::Context;
 use lumbre::LoadOptions;
+use lumbre::edits::Edits;
 use lumbre::io::Limits;
 use lumbre::scene::{Background, EnvironmentMap, Scene};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
 /// A scene that was opened.
@@ -40,12 +41,12 @@ pub enum Opened {
         /// What there is to say, a line each.
         notes: Vec<String>,
     },
-    /// The text of a file of edits.
+    /// Edits.
     Edits {
-        /// Its file.
+        /// Their file.
         path: PathBuf,
-        /// Not yet understood: that takes the scene.
-        text: String,
+        /// Whether they fit the scene that is open is another matter.
+        edits: Box<Edits>,
     },
     /// It could not be opened: one line.
     Failed {
@@ -91,7 +92,7 @@ pub struct Loader {
     options: LoadOptions,
     send: Sender<(u64, Opened)>,
     receive: Receiver<(u64, Opened)>,
-    window: Arc<OnceLock<Context>>,
+    window: Arc<Mutex<Option<Context>>>,
     /// Number of the last scene that was asked for: those before it are of no use.
     last_scene: u64,
     count: u64,
@@ -103,12 +104,20 @@ impl Loader {
     /// One that opens by these options. Those that choose within a file hold for `first` alone.
     pub fn new(options: LoadOptions) -> Self {
         let (send, receive) = channel();
-        Loader { options, send, receive, window: Arc::default(), last_scene: 0, count: 0, under_way: Vec::new() }
+        Loader {
+            options,
+            send,
+            receive,
+            window: Arc::default(),
+            last_scene: 0,
+            count: 0,
+            under_way: Vec::new(),
+        }
     }
 
     /// Tells whose window is to be woken.
     pub fn wake(&self, window: &Context) {
-        let _ = self.window.set(window.clone());
+        *self.window.lock().unwrap_or_else(PoisonError::into_inner) = Some(window.clone());
     }
 
     /// Opens a file by its ending.
@@ -117,8 +126,8 @@ impl Loader {
             FileKind::Scene => self.open_scene(path, false),
             FileKind::Environment => self.open_environment(path),
             FileKind::Edits => self.start(path, move |path| {
-                let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
-                Ok(Opened::Edits { path: path.into(), text })
+                let edits = Edits::read(path).map_err(|e| e.to_string())?;
+                Ok(Opened::Edits { path: path.into(), edits: Box::new(edits) })
             }),
         }
     }
@@ -128,7 +137,11 @@ impl Loader {
         let mut options = self.options.clone();
         if self.last_scene > 0 && !again {
             // Which of a file's scenes was said of the first file.
-            options = LoadOptions { limits: options.limits, asset_dirs: options.asset_dirs, ..LoadOptions::default() };
+            options = LoadOptions {
+                limits: options.limits,
+                asset_dirs: options.asset_dirs,
+                ..LoadOptions::default()
+            };
             self.options = options.clone();
         }
         self.last_scene = self.count + 1;
@@ -143,7 +156,8 @@ impl Loader {
 
     fn start(&mut self, path: &Path, work: impl FnOnce(&Path) -> Result<Opened, String> + Send + 'static) {
         self.count += 1;
-        let (number, send, window, path) = (self.count, self.send.clone(), self.window.clone(), path.to_path_buf());
+        let (number, send, window, path) =
+            (self.count, self.send.clone(), self.window.clone(), path.to_path_buf());
         self.under_way.push((number, path.clone()));
         let of_thread = path.clone();
         let job = move || {
@@ -152,7 +166,8 @@ impl Loader {
             let done = catch_unwind(AssertUnwindSafe(|| work(&path)))
                 .unwrap_or_else(|_| Err(format!("{}: this is a bug: the loader panicked", path.display())));
             let _ = send.send((number, done.unwrap_or_else(|reason| Opened::Failed { path, reason })));
-            if let Some(window) = window.get() {
+            let window = window.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            if let Some(window) = window {
                 window.request_repaint();
             }
         };
@@ -174,7 +189,10 @@ impl Loader {
             Opened::Scene(_) => number == self.last_scene,
             _ => true,
         };
-        came.into_iter().filter(|(number, opened)| of_use(*number, opened)).map(|(_, opened)| opened).collect()
+        came.into_iter()
+            .filter(|(number, opened)| of_use(*number, opened))
+            .map(|(_, opened)| opened)
+            .collect()
     }
 }
 
@@ -190,7 +208,13 @@ fn load(path: &Path, options: &LoadOptions, again: bool) -> Result<Opened, Strin
     let meshes = mesh_bounds(&scene);
     let seconds = began.elapsed().as_secs_f64();
     notes.push(format!("{} opened in {seconds:.2} s", path.display()));
-    Ok(Opened::Scene(Box::new(OpenedScene { path: path.into(), scene: Arc::new(scene), meshes, notes, again })))
+    Ok(Opened::Scene(Box::new(OpenedScene {
+        path: path.into(),
+        scene: Arc::new(scene),
+        meshes,
+        notes,
+        again,
+    })))
 }
 
 fn environment(path: &Path, limits: &Limits) -> Result<Opened, String> {
@@ -287,12 +311,20 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let broken = folder.path().join("broken.glb");
         std::fs::write(&broken, b"glTF and then nothing").unwrap();
-        for path in [broken, folder.path().join("missing.obj"), folder.path().join("missing.json"), folder.path().join("no.hdr")] {
+        for path in [
+            broken,
+            folder.path().join("missing.obj"),
+            folder.path().join("missing.json"),
+            folder.path().join("no.hdr"),
+        ] {
             let mut loader = Loader::new(LoadOptions::default());
             loader.open(&path);
             let Opened::Failed { path: of, reason } = next(&mut loader) else { panic!("{path:?}") };
             assert_eq!(of, path);
-            assert!(reason.contains(&*path.file_name().unwrap().to_string_lossy()) && !reason.contains('\n'), "{reason}");
+            assert!(
+                reason.contains(&*path.file_name().unwrap().to_string_lossy()) && !reason.contains('\n'),
+                "{reason}"
+            );
         }
     }
 
