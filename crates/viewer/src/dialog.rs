@@ -125,7 +125,10 @@ impl Dialog {
             if let (true, Some(up)) = (button.on_hover_text("The folder above").clicked(), up) {
                 self.enter(&up, ui.ctx());
             }
-            ui.add(egui::Label::new(RichText::new(self.folder.path.display().to_string()).monospace()).truncate());
+            ui.add(
+                egui::Label::new(RichText::new(self.folder.path.display().to_string()).monospace())
+                    .truncate(),
+            );
         });
     }
 

@@ -5,6 +5,7 @@
 use crate::history::History;
 use crate::open::OpenedScene;
 use crate::places::{MeshBounds, Places};
+use lumbre::camera::camera_names;
 use lumbre::edits::{Changes, Edits, Item};
 use lumbre::scene::{EnvironmentMap, Scene};
 use std::collections::HashMap;
@@ -23,6 +24,8 @@ pub struct Document {
     pub scene: Arc<Scene>,
     /// Where its things are.
     pub places: Places,
+    /// Names of its cameras.
+    pub cameras: Vec<String>,
     /// Steps to take back. Of the camera there are others: looking around is no edit.
     pub history: History<Edits>,
     /// Where the camera was.
@@ -51,9 +54,11 @@ impl Document {
     pub fn new(opened: OpenedScene) -> Self {
         let places = Places::of(&opened.scene, &opened.meshes);
         let name = opened.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let edits = Edits { scene: name, ..Edits::default() };
+        let mut edits = Edits::default();
+        edits.scene = name;
         Document {
             path: opened.path,
+            cameras: camera_names(&opened.scene),
             scene: opened.scene.clone(),
             base: opened.scene,
             history: History::new(undoable(&edits)),
@@ -74,7 +79,9 @@ impl Document {
 
     /// Opens edits in the place of those there are. They can be undone.
     pub fn replace_edits(&mut self, edits: Edits) {
-        self.edits = Edits { scene: self.edits.scene.clone(), ..edits };
+        let scene = std::mem::take(&mut self.edits.scene);
+        self.edits = edits;
+        self.edits.scene = scene;
     }
 
     /// Brings a map that was read from a file.
@@ -111,7 +118,9 @@ impl Document {
     pub fn give_up(&mut self) {
         let step = self.history.now().clone();
         let back = if part_of(&step, &self.base) == self.shown { step } else { self.shown.clone() };
-        self.set_undoable(Edits { scene: self.edits.scene.clone(), ..back });
+        let scene = self.edits.scene.clone();
+        self.set_undoable(back);
+        self.edits.scene = scene;
     }
 
     /// What of the edits decides the scene.
@@ -138,17 +147,23 @@ impl Document {
     }
 
     fn set_undoable(&mut self, edits: Edits) {
-        self.edits = Edits { camera: self.edits.camera.clone(), ..edits };
+        let camera = std::mem::take(&mut self.edits.camera);
+        self.edits = edits;
+        self.edits.camera = camera;
     }
 }
 
 /// The edits without the camera.
 fn undoable(edits: &Edits) -> Edits {
-    Edits { camera: Changes::default(), ..edits.clone() }
+    let mut edits = edits.clone();
+    edits.camera = Changes::default();
+    edits
 }
 
 fn part_of(edits: &Edits, base: &Scene) -> Edits {
-    let mut part = Edits { scene: String::new(), camera: Changes::default(), bookmarks: Vec::new(), ..edits.clone() };
+    let mut part = undoable(edits);
+    part.scene.clear();
+    part.bookmarks.clear();
     for item in [Item::Settings, Item::Look] {
         // These are there in every scene.
         let reset = part.reset(base, item);

@@ -32,6 +32,7 @@ pub struct Meter {
     longest_update: Duration,
     updates: u64,
     long_updates: u64,
+    answer: Duration,
 }
 
 impl Meter {
@@ -59,6 +60,16 @@ impl Meter {
         self.longest_update = self.longest_update.max(took);
         self.updates += 1;
         self.long_updates += u64::from(took > LIMIT);
+    }
+
+    /// A wish was seen on the screen so long after it was made.
+    pub fn answered(&mut self, took: Duration) {
+        self.answer = took;
+    }
+
+    /// From the last wish to the first frame that had it.
+    pub fn answer(&self) -> Duration {
+        self.answer
     }
 
     /// Forgets what is too old to count.

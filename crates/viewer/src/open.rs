@@ -4,12 +4,13 @@
 use crate::places::{MeshBounds, mesh_bounds};
 use eframe::egui::Context;
 use lumbre::LoadOptions;
+use lumbre::edits::Edits;
 use lumbre::io::Limits;
 use lumbre::scene::{Background, EnvironmentMap, Scene};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
 /// A scene that was opened.
@@ -40,12 +41,12 @@ pub enum Opened {
         /// What there is to say, a line each.
         notes: Vec<String>,
     },
-    /// The text of a file of edits.
+    /// Edits.
     Edits {
-        /// Its file.
+        /// Their file.
         path: PathBuf,
-        /// Not yet understood: that takes the scene.
-        text: String,
+        /// Whether they fit the scene that is open is another matter.
+        edits: Box<Edits>,
     },
     /// It could not be opened: one line.
     Failed {
@@ -91,7 +92,7 @@ pub struct Loader {
     options: LoadOptions,
     send: Sender<(u64, Opened)>,
     receive: Receiver<(u64, Opened)>,
-    window: Arc<OnceLock<Context>>,
+    window: Arc<Mutex<Option<Context>>>,
     /// Number of the last scene that was asked for: those before it are of no use.
     last_scene: u64,
     count: u64,
@@ -116,7 +117,7 @@ impl Loader {
 
     /// Tells whose window is to be woken.
     pub fn wake(&self, window: &Context) {
-        let _ = self.window.set(window.clone());
+        *self.window.lock().unwrap_or_else(PoisonError::into_inner) = Some(window.clone());
     }
 
     /// Opens a file by its ending.
@@ -125,8 +126,8 @@ impl Loader {
             FileKind::Scene => self.open_scene(path, false),
             FileKind::Environment => self.open_environment(path),
             FileKind::Edits => self.start(path, move |path| {
-                let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
-                Ok(Opened::Edits { path: path.into(), text })
+                let edits = Edits::read(path).map_err(|e| e.to_string())?;
+                Ok(Opened::Edits { path: path.into(), edits: Box::new(edits) })
             }),
         }
     }
@@ -165,7 +166,8 @@ impl Loader {
             let done = catch_unwind(AssertUnwindSafe(|| work(&path)))
                 .unwrap_or_else(|_| Err(format!("{}: this is a bug: the loader panicked", path.display())));
             let _ = send.send((number, done.unwrap_or_else(|reason| Opened::Failed { path, reason })));
-            if let Some(window) = window.get() {
+            let window = window.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            if let Some(window) = window {
                 window.request_repaint();
             }
         };

@@ -3,7 +3,7 @@
 
 use eframe::egui::{ColorImage, Context};
 use lumbre::session::{Event, Frame, FrameSink, FrameStats};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A frame that can be shown.
 #[derive(Clone)]
@@ -34,13 +34,13 @@ const KEPT: usize = 1024;
 #[derive(Default)]
 pub struct Sink {
     news: Mutex<News>,
-    window: OnceLock<Context>,
+    window: Mutex<Option<Context>>,
 }
 
 impl Sink {
     /// Tells whose window is to be woken. Until then frames and events gather.
     pub fn wake(&self, window: &Context) {
-        let _ = self.window.set(window.clone());
+        *self.window.lock().unwrap_or_else(PoisonError::into_inner) = Some(window.clone());
     }
 
     /// Takes what came.
@@ -52,8 +52,10 @@ impl Sink {
         self.news.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn tell(&self) {
-        if let Some(window) = self.window.get() {
+    /// Wakes the window.
+    pub fn tell(&self) {
+        let window = self.window.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        if let Some(window) = window {
             window.request_repaint();
         }
     }

@@ -14,11 +14,12 @@ use lumbre::core::Camera;
 use lumbre::core::camera::Projection;
 use lumbre::core::settings::RenderSettings;
 use lumbre::edits::{Changes, Edits, EditsError, Item, LookEdits, Value};
-use lumbre::scene::{CompiledScene, MaterialId, NodeId, Scene};
+use lumbre::scene::{CompiledScene, EnvironmentMap, MaterialId, NodeId, Scene};
 use lumbre::session::{Event, FrameStats, Layer, Picked, ViewLook, Wanted};
 use lumbre::{Device, LoadOptions};
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 
 /// What of a render is not part of the picture, and so of no file of edits.
@@ -129,12 +130,17 @@ pub struct State {
     pub edits_file: Option<PathBuf>,
     /// Where pictures are saved.
     pub picture_file: Option<PathBuf>,
+    /// Edits that are to be opened with the first scene.
+    pub first_edits: Option<PathBuf>,
     /// The scene before the last one that was opened, until that is on the device.
     pub before: Option<Document>,
     /// Devices of this machine, once they are known.
     pub devices: Vec<(String, Device)>,
     /// The window is to fill the screen, or not to.
     pub full_screen: bool,
+    /// Another scene or device is on its way, which is worth a line once it is there.
+    pub announce: bool,
+    found: Found,
 }
 
 /// After this long without a move it is over.
@@ -168,9 +174,12 @@ impl State {
             watch: None,
             edits_file: None,
             picture_file: None,
+            first_edits: None,
             before: None,
             devices: Vec::new(),
             full_screen: false,
+            announce: false,
+            found: Found::default(),
         }
     }
 
@@ -197,6 +206,7 @@ impl State {
             }
         };
         self.document = Some(document);
+        self.announce = true;
         self.picks.clear();
         self.watch = self.watching.then(|| Watch::of(&path, window.clone()));
         if !again {
@@ -209,7 +219,7 @@ impl State {
         self.parallel_zoom = 1.0;
         self.auto_focus = None;
         let Some(document) = &mut self.document else { return };
-        if camera_names(&document.base).is_empty() {
+        if document.cameras.is_empty() {
             let pose = overview(document.places.all(), DEFAULT_FOV, aspect_of(self.size));
             write_pose(&mut document.edits, &document.base, &pose);
             document.views = crate::history::History::new(document.edits.camera.clone());
@@ -246,10 +256,7 @@ impl State {
     /// The camera that looks; `None` without a scene.
     pub fn camera(&self) -> Option<Camera> {
         let document = self.document.as_ref()?;
-        let aspect = aspect_of(self.size);
-        let mut camera = camera_of(&document.scene, &document.edits.camera, aspect)
-            .or_else(|| camera_of(&document.scene, &Changes::default(), aspect))
-            .unwrap_or_else(|| overview(document.places.all(), DEFAULT_FOV, aspect).camera);
+        let mut camera = self.found.get(document, aspect_of(self.size));
         if let Projection::Orthographic { .. } = camera.projection {
             camera.projection = camera.projection.scaled(self.parallel_zoom);
         }
@@ -277,7 +284,10 @@ impl State {
         self.reach = pose.reach;
         let Some(document) = &mut self.document else { return };
         match (before.camera.projection, pose.camera.projection) {
-            (Projection::Orthographic { half_height: old }, Projection::Orthographic { half_height: new }) => {
+            (
+                Projection::Orthographic { half_height: old },
+                Projection::Orthographic { half_height: new },
+            ) => {
                 self.parallel_zoom *= new / old;
             }
             (old, new) if old != new => write_fov(&mut document.edits, &document.base, new),
@@ -368,7 +378,9 @@ impl State {
             Event::Prepared { device, seconds } => {
                 self.preparing = None;
                 self.before = None;
-                self.log.note(format!("on {device} in {seconds:.2} s"));
+                if std::mem::take(&mut self.announce) {
+                    self.log.note(format!("on {device} in {seconds:.2} s"));
+                }
             }
             Event::Notice(text) => self.log.note(text),
             Event::Failed(text) => self.failed(text),
@@ -394,7 +406,8 @@ impl State {
     fn picked(&mut self, found: Option<Picked>) {
         let Some(why) = self.picks.answered() else { return };
         let Some(pose) = self.pose() else { return };
-        let along = found.map(|p| (p.point - pose.camera.origin).dot(pose.camera.forward)).filter(|d| *d > 0.0);
+        let along =
+            found.map(|p| (p.point - pose.camera.origin).dot(pose.camera.forward)).filter(|d| *d > 0.0);
         match (why, found) {
             (Why::AutoFocus, _) => self.auto_focus = along.or(Some(FAR)),
             (Why::Focus, _) => {
@@ -423,9 +436,29 @@ impl State {
         }
     }
 
+    /// A picture of the surroundings was read: it becomes the sky, unless it is already.
+    pub fn use_environment(&mut self, path: PathBuf, map: Arc<EnvironmentMap>) {
+        let Some(document) = &mut self.document else {
+            return self.log.error("an environment lights a scene: open that first");
+        };
+        let wanted = document.edits.sky_file().is_some_and(|file| file == path);
+        document.know(path.clone(), map);
+        if wanted {
+            return;
+        }
+        self.edit(|edits, base| {
+            let name = path.to_string_lossy().into_owned();
+            edits.set(base, Item::Sky, "kind", Value::Word("file"))?;
+            edits.set(base, Item::Sky, "file", Value::Text(name))?;
+            // A picture of the sky has its own sun.
+            edits.set(base, Item::Sun, "on", Value::Flag(false))
+        });
+    }
+
     /// Opens the file dialog.
     pub fn ask_for_file(&mut self, purpose: Purpose, window: &eframe::egui::Context) {
-        let scene = self.document.as_ref().map(|d| d.path.clone()).or_else(|| self.recent.paths().first().cloned());
+        let scene =
+            self.document.as_ref().map(|d| d.path.clone()).or_else(|| self.recent.paths().first().cloned());
         let beside = |ending: &str| scene.as_ref().map(|path| path.with_extension(ending));
         let at = match purpose {
             Purpose::Open | Purpose::Environment => scene.clone(),
@@ -456,9 +489,32 @@ const PREVIEW_SAMPLES: u32 = 8;
 const FAR: f32 = 1e5;
 
 /// A scene without anything: a camera of the file needs no more.
-static EMPTY: LazyLock<CompiledScene> = LazyLock::new(|| {
-    lumbre::compile(&Scene::default()).expect("an empty scene can be compiled").scene
-});
+static EMPTY: LazyLock<CompiledScene> =
+    LazyLock::new(|| lumbre::compile(&Scene::default()).expect("an empty scene can be compiled").scene);
+
+/// The camera that was found last, and for what: finding one looks through the whole scene, and panels ask for it many times a frame.
+#[derive(Default)]
+struct Found(RefCell<Option<(Arc<Scene>, Changes, f32, Camera)>>);
+
+impl Found {
+    fn get(&self, document: &Document, aspect: f32) -> Camera {
+        let mut last = self.0.borrow_mut();
+        if let Some((scene, changes, of, camera)) = &*last
+            && Arc::ptr_eq(scene, &document.scene)
+            && (changes, of) == (&document.edits.camera, &aspect)
+        {
+            return *camera;
+        }
+        let scene = &document.scene;
+        let changes = &document.edits.camera;
+        let camera = camera_of(scene, changes, aspect)
+            // A camera of that name is not there, as where the file has changed.
+            .or_else(|| camera_of(scene, &Changes::default(), aspect))
+            .unwrap_or_else(|| overview(document.places.all(), DEFAULT_FOV, aspect).camera);
+        *last = Some((scene.clone(), changes.clone(), aspect, camera));
+        camera
+    }
+}
 
 /// The camera of these changes, exactly as `lumbre render` finds it; `None` where the whole scene has to be brought into view.
 fn camera_of(scene: &Scene, changes: &Changes, aspect: f32) -> Option<Camera> {

@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 use glam::Vec3;
 use lumbre::core::Rgb;
-use lumbre::edits::{Kind, Row, Value};
+use lumbre::edits::{Item, Kind, Row, Value};
 use std::ops::RangeInclusive;
 
 /// What a person did to a parameter.
@@ -20,8 +20,8 @@ pub enum Done {
     Browse(&'static str),
 }
 
-/// Shows the rows that apply, group by group, and says what was done. `salt` tells tables in one panel apart.
-pub fn rows(ui: &mut Ui, salt: impl std::hash::Hash + Copy, rows: &[Row]) -> Option<Done> {
+/// Shows the rows that apply, group by group, and says what was done.
+pub fn rows(ui: &mut Ui, item: Item, rows: &[Row]) -> Option<Done> {
     let mut done = None;
     let mut rest = rows;
     while let Some(first) = rest.first() {
@@ -32,19 +32,19 @@ pub fn rows(ui: &mut Ui, salt: impl std::hash::Hash + Copy, rows: &[Row]) -> Opt
             continue;
         }
         if first.group.is_empty() {
-            done = done.or(grid(ui, (salt, ""), &shown));
+            done = done.or(grid(ui, (item, ""), &shown));
             continue;
         }
         let changed = shown.iter().any(|r| r.changed);
         let heading = if changed { format!("{} •", first.group) } else { first.group.to_owned() };
-        let header = egui::CollapsingHeader::new(heading).id_salt((salt, first.group)).default_open(false);
-        let inside = header.show(ui, |ui| grid(ui, (salt, first.group), &shown));
+        let header = egui::CollapsingHeader::new(heading).id_salt((item, first.group)).default_open(false);
+        let inside = header.show(ui, |ui| grid(ui, (item, first.group), &shown));
         done = done.or(inside.body_returned.flatten());
     }
     done
 }
 
-fn grid(ui: &mut Ui, salt: impl std::hash::Hash, rows: &[&Row]) -> Option<Done> {
+fn grid(ui: &mut Ui, salt: (Item, &str), rows: &[&Row]) -> Option<Done> {
     let mut done = None;
     Grid::new(ui.make_persistent_id(salt)).num_columns(2).spacing([8.0, 5.0]).show(ui, |ui| {
         for row in rows {
@@ -95,7 +95,7 @@ fn one(ui: &mut Ui, row: &Row) -> Option<Done> {
 /// Gives a widget a name for those who hear instead of see, and for tests.
 fn name(response: &Response, text: &str) {
     let text = text.to_owned();
-    response.widget_info(move || egui::WidgetInfo::labeled(egui::WidgetType::Button, true, &text));
+    response.widget_info(move || egui::WidgetInfo::labeled(egui::Role::Button, true, &text));
 }
 
 enum Outcome {
@@ -132,7 +132,13 @@ fn widget(ui: &mut Ui, row: &Row, value: &mut Value, label: &Response) -> Outcom
     }
 }
 
-fn choice(ui: &mut Ui, salt: &str, words: &[&'static str], word: &mut &'static str, label: &Response) -> bool {
+fn choice(
+    ui: &mut Ui,
+    salt: &str,
+    words: &[&'static str],
+    word: &mut &'static str,
+    label: &Response,
+) -> bool {
     let before = *word;
     let shown = ComboBox::from_id_salt(salt).selected_text(*word).show_ui(ui, |ui| {
         for other in words {
@@ -194,16 +200,17 @@ fn number_or_word(ui: &mut Ui, row: &Row, value: &mut Value, label: &Response) -
         Value::Word(word) => *word,
         _ => "value",
     };
-    let list = ComboBox::from_id_salt((row.name, "word")).width(72.0).selected_text(shown).show_ui(ui, |ui| {
-        for word in row.kind.words() {
-            ui.selectable_value(value, Value::Word(word), *word);
-        }
-        if ui.selectable_label(!matches!(value, Value::Word(_)), "value").clicked()
-            && matches!(value, Value::Word(_))
-        {
-            *value = start(&row.kind);
-        }
-    });
+    let list =
+        ComboBox::from_id_salt((row.name, "word")).width(72.0).selected_text(shown).show_ui(ui, |ui| {
+            for word in row.kind.words() {
+                ui.selectable_value(value, Value::Word(word), *word);
+            }
+            if ui.selectable_label(!matches!(value, Value::Word(_)), "value").clicked()
+                && matches!(value, Value::Word(_))
+            {
+                *value = start(&row.kind);
+            }
+        });
     if matches!(value, Value::Word(_)) {
         list.response.labelled_by(label.id);
     } else {
@@ -216,8 +223,16 @@ fn number_or_word(ui: &mut Ui, row: &Row, value: &mut Value, label: &Response) -
 fn compact(ui: &mut Ui, kind: &Kind, value: &mut Value, label: &Response) {
     match (kind, value) {
         (Kind::Number { range, unit, log, slider, .. }, Value::Number(v)) => {
-            let speed = if *log { f64::from(v.abs()).max(1e-4) * 0.02 } else { f64::from(slider[1] - slider[0]) * 0.003 };
-            let field = DragValue::new(v).range(range[0]..=range[1]).speed(speed).max_decimals(4).suffix(suffix(unit));
+            let speed = if *log {
+                f64::from(v.abs()).max(1e-4) * 0.02
+            } else {
+                f64::from(slider[1] - slider[0]) * 0.003
+            };
+            let field = DragValue::new(v)
+                .range(range[0]..=range[1])
+                .speed(speed)
+                .max_decimals(4)
+                .suffix(suffix(unit));
             ui.add(field).labelled_by(label.id);
         }
         (Kind::Whole { range, .. }, Value::Whole(v)) => {
@@ -231,7 +246,9 @@ fn compact(ui: &mut Ui, kind: &Kind, value: &mut Value, label: &Response) {
 fn start(kind: &Kind) -> Value {
     match kind {
         Kind::Number { slider: [a, b], log: true, .. } => Value::Number((a.max(1e-4) * b).sqrt()),
-        Kind::Number { slider: [a, b], .. } => Value::Number(if *a <= 0.0 && *b >= 0.0 { 0.0 } else { 0.5 * (a + b) }),
+        Kind::Number { slider: [a, b], .. } => {
+            Value::Number(if *a <= 0.0 && *b >= 0.0 { 0.0 } else { 0.5 * (a + b) })
+        }
         Kind::Whole { slider: [a, b], .. } => Value::Whole((a + b) / 3),
         _ => Value::Number(0.0),
     }
@@ -280,7 +297,8 @@ pub const AXIS_COLORS: [Color32; 3] =
 fn file(ui: &mut Ui, path: &str) -> Outcome {
     let name = std::path::Path::new(path).file_name().unwrap_or_default().to_string_lossy();
     let asked = ui.button("…").on_hover_text("Choose a file").clicked();
-    ui.add(egui::Label::new(if name.is_empty() { "none".into() } else { name }).truncate()).on_hover_text(path);
+    ui.add(egui::Label::new(if name.is_empty() { "none".into() } else { name }).truncate())
+        .on_hover_text(path);
     if asked { Outcome::Browse } else { Outcome::Same }
 }
 
@@ -293,8 +311,11 @@ fn aperture(ui: &mut Ui, row: &Row, value: &mut Value, label: &Response) -> bool
         _ => "off",
     };
     let list = ComboBox::from_id_salt(row.name).width(72.0).selected_text(shown).show_ui(ui, |ui| {
-        for (name, start) in [("off", Value::Word("off")), ("f-number", Value::FNumber(2.8)), ("diameter", Value::Number(0.05))]
-        {
+        for (name, start) in [
+            ("off", Value::Word("off")),
+            ("f-number", Value::FNumber(2.8)),
+            ("diameter", Value::Number(0.05)),
+        ] {
             if ui.selectable_label(shown == name, name).clicked() && shown != name {
                 *value = start;
             }
