@@ -3,6 +3,7 @@
 //! [`device`] says what can be asked for, [`list`] what there is, [`open`] brings the two together, and [`fallback`] goes on
 //! where a device fails.
 
+pub mod canvas;
 pub mod device;
 pub mod fallback;
 pub mod frames;
@@ -11,6 +12,7 @@ pub mod open;
 #[cfg_attr(not(feature = "vulkan"), path = "without_vulkan.rs")]
 mod vulkan;
 
+pub use canvas::{Canvas, Developed};
 pub use device::{Device, DeviceError, GpuChoice};
 pub use fallback::Fallback;
 pub use frames::{Frames, PassTime, Replayed};
@@ -94,6 +96,15 @@ pub trait Backend: Send + Sync {
     /// If the device fails.
     fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, RenderError> {
         frames::by_renders(self, view, size, spp, count)
+    }
+
+    /// Sums of a picture that people look at while it grows. Here, for devices whose memory is that of the program: a film, and plain
+    /// renders.
+    ///
+    /// # Errors
+    /// If the device fails.
+    fn canvas(&self) -> Result<Box<dyn Canvas + '_>, RenderError> {
+        Ok(Box::new(canvas::HostCanvas::new(self)))
     }
 
     /// Collects the rays of a frame of one sample a pixel and traces them again by themselves, so many times, for measurements; `None`

@@ -8,6 +8,7 @@
 layout(local_size_x = 64) in;
 
 #include "path/push.glsl"
+#include "label.glsl"
 #include "path/path.glsl"
 
 // Members of the three lists that this group adds to, and where in them the group's part begins.
@@ -18,7 +19,8 @@ shared uint begins[3];
 void store_planes(uint id, Path path, Interaction it, Surface surface) {
     Quads state = push.view.state;
     uint n = push.view.capacity;
-    state.at[STATE_ALBEDO * n + id] = vec4(bsdf_albedo(surface.bsdf), path.travelled + it.t);
+    Rgb albedo = push.view.object_colors != 0u ? label(it.instance) : bsdf_albedo(surface.bsdf);
+    state.at[STATE_ALBEDO * n + id] = vec4(albedo, path.travelled + it.t);
     state.at[STATE_NORMAL * n + id] = vec4(surface.frame.n, 1.0);
     state.at[STATE_POSITION * n + id] = vec4(it.p, 0.0);
 }

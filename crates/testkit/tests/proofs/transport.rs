@@ -35,6 +35,7 @@ pub(super) const BASE: RenderSettings = RenderSettings {
     shade_back_faces: false,
     clamp: None,
     transparent_background: false,
+    object_colors: false,
 };
 
 /// A picture's mean at a number of samples of 24 x 24 pixels.

@@ -1,7 +1,9 @@
 //! A scene on a GPU, rendered into films. Twin of the loop over tiles: `cpu/src/backend.rs`.
 
+mod canvas;
 mod own_rays;
 
+pub use canvas::Canvas;
 pub use own_rays::{OwnRays, RayBatch, Replayed};
 
 use super::code::Code;
@@ -16,7 +18,7 @@ use crate::{
 };
 use glam::Vec3;
 use lumbre_core::control::{Control, Progress};
-use lumbre_core::film::Film;
+use lumbre_core::film::{Crop, Film};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_scene::CompiledScene;
@@ -101,6 +103,14 @@ pub struct Frames {
     pub path_rays: Option<u64>,
     /// Time of the GPU, pass by pass.
     pub passes: Vec<PassTime>,
+}
+
+/// A film on the device: the part of the picture that it holds, and where its sums and its list of samples that were not finite lie.
+#[derive(Clone, Copy)]
+struct Target {
+    picture: [u32; 2],
+    crop: Crop,
+    film: [u64; 2],
 }
 
 /// What all submissions of a render have in common.
@@ -202,26 +212,39 @@ impl VulkanBackend {
         control: &dyn Control,
     ) -> Result<Progress, VulkanError> {
         let mut work = self.lock();
-        let shot = self.shot(&mut work, view, film, samples.len() as u64)?;
+        let target = self.own_film(&mut work, film)?;
+        let done = self.add(&mut work, view, &target, samples, control)?;
+        work.film.as_ref().expect("made for the target").read(&self.gpu, film)?;
+        Ok(done)
+    }
+
+    /// Adds the samples of a range to a film on the device.
+    fn add(
+        &self,
+        work: &mut Work,
+        view: &View,
+        target: &Target,
+        samples: Range<u32>,
+        control: &dyn Control,
+    ) -> Result<Progress, VulkanError> {
+        let shot = self.shot(work, view, target, samples.len() as u64)?;
         let flight = self.flight(&shot, true)?;
         let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
-        let mut slices = Slices::new(film, samples, capacity);
+        let mut slices = Slices::new(target.crop.size, samples, capacity);
         let mut done = Progress::default();
         while let Some(slice) = slices.next(&work.pace) {
             if control.cancelled() {
                 break;
             }
             let began = Instant::now();
-            self.submit(&work, &shot, &flight, (&slice, true))?.wait()?;
+            self.submit(work, &shot, &flight, (&slice, true))?.wait()?;
             note(&mut work.times, &flight)?;
-            let Some(rays) = self.finish(&mut work, &shot, &flight, (&slice, control))? else { break };
+            let Some(rays) = self.finish(work, &shot, &flight, (&slice, control))? else { break };
             work.pace.learn(slice.count(), began.elapsed().as_secs_f64());
             done.samples += slice.count();
             done.rays += rays.path + rays.shadow;
             control.progress(done);
         }
-        let on_gpu = work.film.as_ref().expect("the shot made it");
-        on_gpu.read(&self.gpu, film)?;
         Ok(done)
     }
 
@@ -232,8 +255,8 @@ impl VulkanBackend {
     /// If memory is out or the device is lost.
     pub fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, VulkanError> {
         let mut work = self.lock();
-        let film = Film::new(size[0], size[1]);
-        let shot = self.shot(&mut work, view, &film, spp.into())?;
+        let target = self.own_film(&mut work, &Film::new(size[0], size[1]))?;
+        let shot = self.shot(&mut work, view, &target, spp.into())?;
         if !shot.complete {
             drop(work);
             return self.frames_by_renders(view, size, spp, count);
@@ -244,7 +267,7 @@ impl VulkanBackend {
         // All slices of all frames, in order; a frame is done with its last one.
         let mut slices: Vec<(Slice, bool)> = Vec::new();
         for frame in 0..count {
-            let mut of_frame = Slices::new(&film, frame * spp..(frame + 1) * spp, capacity);
+            let mut of_frame = Slices::new(size, frame * spp..(frame + 1) * spp, capacity);
             slices.extend(std::iter::from_fn(|| of_frame.next(&Pace::unbounded())).map(|s| (s, false)));
             slices.last_mut().into_iter().for_each(|s| s.1 = true);
         }
@@ -353,15 +376,22 @@ impl VulkanBackend {
         Ok(Some(shot.rays(slice, &heads)))
     }
 
-    /// Gets ready for a film and so many samples of each pixel: pipelines, view, empty sums.
-    fn shot(&self, work: &mut Work, view: &View, film: &Film, samples: u64) -> Result<Shot, VulkanError> {
+    /// The film that the backend keeps for renders, empty, with room for one like this.
+    fn own_film(&self, work: &mut Work, film: &Film) -> Result<Target, VulkanError> {
         let pixels = film.pixels().len() as u64;
         if work.film.as_ref().is_none_or(|f| f.pixels() < pixels || f.pixels() > 4 * pixels.max(1)) {
             // The old one goes first: there may not be room for both.
             work.film = None;
             work.film = Some(FilmOnGpu::new(&self.gpu, pixels)?);
         }
-        let paths = paths_per_sample([film.width(), film.height()]).saturating_mul(samples);
+        let on_gpu = work.film.as_ref().expect("made above");
+        on_gpu.empty(&self.gpu)?;
+        Ok(Target { picture: film.picture_size(), crop: film.crop(), film: on_gpu.addresses() })
+    }
+
+    /// Gets ready for so many samples of each pixel of a film: pipelines, view, room for paths.
+    fn shot(&self, work: &mut Work, view: &View, target: &Target, samples: u64) -> Result<Shot, VulkanError> {
+        let paths = paths_per_sample(target.crop.size).saturating_mul(samples);
         let paths = paths.clamp(LEAST_PATHS, MOST_PATHS);
         let solids = self.constants.needs.solids;
         if work.paths.as_ref().is_none_or(|p| !p.suits(paths, solids)) {
@@ -373,15 +403,10 @@ impl VulkanBackend {
             Some((at, media)) if at == eye => media,
             _ => work.media.insert((eye, self.solids.around(eye))).1,
         };
-        let on_gpu = work.film.as_ref().expect("made above");
-        let table = self.view_table(view, film, on_gpu, work.paths.as_ref().expect("made above"), &media);
+        let table = self.view_table(view, target, work.paths.as_ref().expect("made above"), &media);
         let mut upload = Upload::new(&self.gpu);
         let table = Buffer::with_content(&mut upload, "view", bytemuck::bytes_of(&table))?;
         upload.finish()?;
-        self.gpu.run("clearing the film", |commands| {
-            on_gpu.clear(commands);
-            Ok(())
-        })?;
         let push = Push {
             tables: self.tables.address(),
             scene: self.scene.address(),
@@ -409,26 +434,19 @@ impl VulkanBackend {
         }
     }
 
-    fn view_table(
-        &self,
-        view: &View,
-        film: &Film,
-        on_gpu: &FilmOnGpu,
-        paths: &Paths,
-        media: &MediumStack,
-    ) -> ViewTable {
+    fn view_table(&self, view: &View, target: &Target, paths: &Paths, media: &MediumStack) -> ViewTable {
         let settings = &view.settings;
-        let [film_address, non_finite] = on_gpu.addresses();
+        let Target { picture, crop, film: [film, non_finite] } = *target;
         let [state, queues, heads] = paths.addresses();
         ViewTable {
-            film: film_address,
+            film,
             non_finite,
             state,
             queues,
             heads,
-            picture: film.picture_size(),
-            origin: film.origin(),
-            size: [film.width(), film.height()],
+            picture,
+            origin: crop.origin,
+            size: crop.size,
             capacity: paths.capacity(),
             seed: settings.seed,
             frame: view.frame,
@@ -436,6 +454,8 @@ impl VulkanBackend {
             roulette: settings.roulette.unwrap_or(u32::MAX),
             clamp_to: settings.clamp.unwrap_or(f32::INFINITY),
             filter_kind: settings.filter as u32,
+            object_colors: settings.object_colors.into(),
+            unused: 0,
             camera: (&view.camera).into(),
             media: media.into(),
         }

@@ -101,7 +101,8 @@ impl VulkanBackend {
     /// If the picture has more pixels than there is room for paths, memory is out, or the device is lost.
     pub fn own_rays(&self, view: &View, size: [u32; 2]) -> Result<OwnRays, VulkanError> {
         let mut work = self.lock();
-        let shot = self.shot(&mut work, view, &Film::new(size[0], size[1]), 1)?;
+        let target = self.own_film(&mut work, &Film::new(size[0], size[1]))?;
+        let shot = self.shot(&mut work, view, &target, 1)?;
         let paths = work.paths.as_ref().expect("the shot made them");
         let (needed, limit) = (super::paths_per_sample(size), u64::from(paths.capacity()));
         if needed > limit {
