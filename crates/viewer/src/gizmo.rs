@@ -57,7 +57,8 @@ impl Screen {
 
     /// The arrow under the mouse.
     pub fn arrow_at(&self, origin: Vec3, mouse: Vec2) -> Option<usize> {
-        let distances = self.arrows(origin).map(|ends| ends.map_or(f32::INFINITY, |ends| to_segment(mouse, ends)));
+        let distances =
+            self.arrows(origin).map(|ends| ends.map_or(f32::INFINITY, |ends| to_segment(mouse, ends)));
         let nearest = (0..3).min_by(|a, b| distances[*a].total_cmp(&distances[*b]))?;
         (distances[nearest] <= NEAR).then_some(nearest)
     }

@@ -79,7 +79,10 @@ mod tests {
         assert!(history.can_undo() && history.can_redo());
         assert!(history.observe(&7, false));
         assert!(!history.can_redo(), "a new step ends what could be made again");
-        assert_eq!([history.undo(), history.undo(), history.undo(), history.undo()], [Some(2), Some(1), Some(0), None]);
+        assert_eq!(
+            [history.undo(), history.undo(), history.undo(), history.undo()],
+            [Some(2), Some(1), Some(0), None]
+        );
     }
 
     #[test]

@@ -115,12 +115,7 @@ const fn alt(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::ALT, key)
 }
 
-const fn row(
-    group: Group,
-    action: Action,
-    keys: &'static [KeyboardShortcut],
-    help: &'static str,
-) -> Binding {
+const fn row(group: Group, action: Action, keys: &'static [KeyboardShortcut], help: &'static str) -> Binding {
     Binding { action, keys, help, group }
 }
 
@@ -154,17 +149,8 @@ pub const BINDINGS: &[Binding] = &[
 ];
 
 /// The keys of bookmarks: alone they go there, with Ctrl they are set.
-pub const BOOKMARK_KEYS: [Key; 9] = [
-    Key::Num1,
-    Key::Num2,
-    Key::Num3,
-    Key::Num4,
-    Key::Num5,
-    Key::Num6,
-    Key::Num7,
-    Key::Num8,
-    Key::Num9,
-];
+pub const BOOKMARK_KEYS: [Key; 9] =
+    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
 
 /// Keys that fly while they are held, and where to: right, up, forward.
 pub const FLIGHT_KEYS: [(Key, Vec3); 6] = [
@@ -197,8 +183,9 @@ pub fn action(pressed: Key, with: Modifiers) -> Option<Action> {
         shortcut.logical_key == pressed && with.matches_exact(shortcut.modifiers)
     };
     // Plus needs shift on many keyboards.
-    let asked_with_shift =
-        |shortcut: &KeyboardShortcut| pressed == Key::Plus && shortcut.logical_key == pressed && with.shift_only();
+    let asked_with_shift = |shortcut: &KeyboardShortcut| {
+        pressed == Key::Plus && shortcut.logical_key == pressed && with.shift_only()
+    };
     let bound = BINDINGS.iter().find(|b| b.keys.iter().any(|k| asked(k) || asked_with_shift(k)));
     bound.map(|b| b.action).or_else(|| bookmark(pressed, with))
 }

@@ -103,7 +103,15 @@ impl Loader {
     /// One that opens by these options. Those that choose within a file hold for `first` alone.
     pub fn new(options: LoadOptions) -> Self {
         let (send, receive) = channel();
-        Loader { options, send, receive, window: Arc::default(), last_scene: 0, count: 0, under_way: Vec::new() }
+        Loader {
+            options,
+            send,
+            receive,
+            window: Arc::default(),
+            last_scene: 0,
+            count: 0,
+            under_way: Vec::new(),
+        }
     }
 
     /// Tells whose window is to be woken.
@@ -128,7 +136,11 @@ impl Loader {
         let mut options = self.options.clone();
         if self.last_scene > 0 && !again {
             // Which of a file's scenes was said of the first file.
-            options = LoadOptions { limits: options.limits, asset_dirs: options.asset_dirs, ..LoadOptions::default() };
+            options = LoadOptions {
+                limits: options.limits,
+                asset_dirs: options.asset_dirs,
+                ..LoadOptions::default()
+            };
             self.options = options.clone();
         }
         self.last_scene = self.count + 1;
@@ -143,7 +155,8 @@ impl Loader {
 
     fn start(&mut self, path: &Path, work: impl FnOnce(&Path) -> Result<Opened, String> + Send + 'static) {
         self.count += 1;
-        let (number, send, window, path) = (self.count, self.send.clone(), self.window.clone(), path.to_path_buf());
+        let (number, send, window, path) =
+            (self.count, self.send.clone(), self.window.clone(), path.to_path_buf());
         self.under_way.push((number, path.clone()));
         let of_thread = path.clone();
         let job = move || {
@@ -174,7 +187,10 @@ impl Loader {
             Opened::Scene(_) => number == self.last_scene,
             _ => true,
         };
-        came.into_iter().filter(|(number, opened)| of_use(*number, opened)).map(|(_, opened)| opened).collect()
+        came.into_iter()
+            .filter(|(number, opened)| of_use(*number, opened))
+            .map(|(_, opened)| opened)
+            .collect()
     }
 }
 
@@ -190,7 +206,13 @@ fn load(path: &Path, options: &LoadOptions, again: bool) -> Result<Opened, Strin
     let meshes = mesh_bounds(&scene);
     let seconds = began.elapsed().as_secs_f64();
     notes.push(format!("{} opened in {seconds:.2} s", path.display()));
-    Ok(Opened::Scene(Box::new(OpenedScene { path: path.into(), scene: Arc::new(scene), meshes, notes, again })))
+    Ok(Opened::Scene(Box::new(OpenedScene {
+        path: path.into(),
+        scene: Arc::new(scene),
+        meshes,
+        notes,
+        again,
+    })))
 }
 
 fn environment(path: &Path, limits: &Limits) -> Result<Opened, String> {
@@ -287,12 +309,20 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let broken = folder.path().join("broken.glb");
         std::fs::write(&broken, b"glTF and then nothing").unwrap();
-        for path in [broken, folder.path().join("missing.obj"), folder.path().join("missing.json"), folder.path().join("no.hdr")] {
+        for path in [
+            broken,
+            folder.path().join("missing.obj"),
+            folder.path().join("missing.json"),
+            folder.path().join("no.hdr"),
+        ] {
             let mut loader = Loader::new(LoadOptions::default());
             loader.open(&path);
             let Opened::Failed { path: of, reason } = next(&mut loader) else { panic!("{path:?}") };
             assert_eq!(of, path);
-            assert!(reason.contains(&*path.file_name().unwrap().to_string_lossy()) && !reason.contains('\n'), "{reason}");
+            assert!(
+                reason.contains(&*path.file_name().unwrap().to_string_lossy()) && !reason.contains('\n'),
+                "{reason}"
+            );
         }
     }
 

@@ -14,9 +14,8 @@ pub fn mesh_bounds(scene: &Scene) -> MeshBounds {
     let used = |p: &lumbre::scene::Primitive| {
         Bounds::around(p.indices.iter().filter_map(|i| p.positions.get(*i as usize).copied()))
     };
-    let one = |primitives: &[lumbre::scene::Primitive]| {
-        primitives.iter().filter_map(used).reduce(Bounds::with)
-    };
+    let one =
+        |primitives: &[lumbre::scene::Primitive]| primitives.iter().filter_map(used).reduce(Bounds::with);
     scene.meshes.iter().map(|mesh| one(&mesh.primitives)).collect()
 }
 
@@ -33,7 +32,12 @@ impl Places {
     /// Of a scene whose meshes were measured.
     pub fn of(scene: &Scene, meshes: &[Option<Bounds>]) -> Self {
         let count = scene.nodes.len();
-        let mut places = Places { worlds: vec![None; count], parents: vec![None; count], boxes: vec![None; count], all: None };
+        let mut places = Places {
+            worlds: vec![None; count],
+            parents: vec![None; count],
+            boxes: vec![None; count],
+            all: None,
+        };
         for (id, world) in scene.world_nodes() {
             places.worlds[id.index()] = Some(world);
             let node = &scene.nodes[id.index()];

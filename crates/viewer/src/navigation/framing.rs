@@ -121,10 +121,14 @@ mod tests {
     fn an_overview_is_the_librarys() {
         let mut scene = lumbre::Scene::default();
         let positions = vec![BOX.min, BOX.max, Vec3::new(BOX.min.x, BOX.max.y, BOX.min.z)];
-        let primitive =
-            lumbre::scene::Primitive { positions, indices: vec![0, 1, 2], ..lumbre::scene::Primitive::default() };
-        let mesh = scene
-            .add_mesh(lumbre::scene::Mesh { primitives: vec![primitive], ..lumbre::scene::Mesh::default() }.into());
+        let primitive = lumbre::scene::Primitive {
+            positions,
+            indices: vec![0, 1, 2],
+            ..lumbre::scene::Primitive::default()
+        };
+        let mesh = scene.add_mesh(
+            lumbre::scene::Mesh { primitives: vec![primitive], ..lumbre::scene::Mesh::default() }.into(),
+        );
         scene.add_root(lumbre::scene::Node { mesh: Some(mesh), ..lumbre::scene::Node::default() });
         let compiled = lumbre::compile(&scene).unwrap().scene;
         for aspect in [0.7, 1.6] {
