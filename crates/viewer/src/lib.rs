@@ -21,6 +21,7 @@ pub mod recent;
 pub mod sink;
 pub mod state;
 pub mod theme;
+pub mod watch;
 mod window;
 
 pub use window::{Options, ViewError, run};
