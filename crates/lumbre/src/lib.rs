@@ -58,8 +58,8 @@ pub mod render;
 pub mod targets;
 
 pub use backend::{
-    Backend, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback, Frames, GpuChoice, GpuOptions,
-    OpenDevice, PassTime, RenderError, Replayed, devices, prepare, prepare_cpu,
+    AccelReport, Backend, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback, Frames, GpuChoice,
+    GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices, prepare, prepare_cpu,
 };
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,
