@@ -25,8 +25,10 @@ use exit::{Code, Failure};
 use flags::{Cli, Command};
 use std::panic::{self, PanicHookInfo};
 use std::process::ExitCode;
+use std::time::Instant;
 
 fn main() -> ExitCode {
+    let started = Instant::now();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(e) => {
@@ -36,17 +38,17 @@ fn main() -> ExitCode {
         }
     };
     panic::set_hook(Box::new(report_bug));
-    guarded(|| run(cli.command)).into()
+    guarded(|| run(cli.command, started)).into()
 }
 
-fn run(command: Command) -> Result<Code, Failure> {
+fn run(command: Command, started: Instant) -> Result<Code, Failure> {
     match command {
         Command::Render(mut args) => render::run(&mut args),
         #[cfg(feature = "viewer")]
         Command::View(args) => view::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Devices(args) => devices::run(&args),
-        Command::Bench(args) => bench::run(&args),
+        Command::Bench(args) => bench::run(&args, started),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man(args) => generate::man(&args),

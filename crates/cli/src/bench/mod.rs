@@ -1,8 +1,10 @@
 //! `lumbre bench`: tables of what a device does. One file a table; [`measure`] takes the figures, [`sweep`] varies one thing after
 //! another, [`table`] prints.
 
+mod build;
 mod depth;
 mod equal_time;
+mod first_frame;
 mod hemisphere;
 mod measure;
 mod path;
@@ -21,11 +23,14 @@ use lumbre::core::Film;
 use lumbre::core::settings::View;
 use lumbre::{Backend, Outcome, Targets};
 use place::Place;
+use std::time::Instant;
 
-/// Runs the command.
-pub(crate) fn run(args: &BenchArgs) -> Result<Code, Failure> {
-    // An unavailable device is said before a scene is opened.
-    drop(device::open(&args.device)?);
+/// Runs the command. `started`: when the process began.
+pub(crate) fn run(args: &BenchArgs, started: Instant) -> Result<Code, Failure> {
+    // An unavailable device is said before a scene is opened; but opening it belongs to the first frame.
+    if args.table != Which::FirstFrame {
+        drop(device::open(&args.device)?);
+    }
     let table = device::pool(&args.device)?.install(|| match args.table {
         Which::Path => path::table(args),
         Which::Samples => samples::table(args),
@@ -35,6 +40,8 @@ pub(crate) fn run(args: &BenchArgs) -> Result<Code, Failure> {
         Which::Still => still::table(args),
         Which::Share => share::table(args),
         Which::EqualTime => equal_time::table(args),
+        Which::Build => build::table(args),
+        Which::FirstFrame => first_frame::table(args, started),
     })?;
     console::result(match (args.json, args.markdown) {
         (true, _) => table.json(),

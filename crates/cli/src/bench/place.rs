@@ -4,7 +4,7 @@ use crate::console;
 use crate::exit::{Code, Failure};
 use crate::flags::bench::BenchArgs;
 use crate::flags::values::file_name;
-use crate::lit;
+use crate::lit::{self, Lit};
 use lumbre::core::math::Vec3;
 use lumbre::core::settings::{RenderSettings, View};
 use lumbre::scene::{CompiledScene, Scene};
@@ -63,7 +63,11 @@ pub(super) fn scenes(args: &BenchArgs) -> Result<Vec<PathBuf>, Failure> {
 impl Place {
     /// Loads and compiles a scene.
     pub(super) fn open(path: &Path, args: &BenchArgs) -> Result<Self, Failure> {
-        let lit = lit::load(path, &args.loading, &args.light)?;
+        Self::of(path, lit::load(path, &args.loading, &args.light)?, args)
+    }
+
+    /// Compiles a scene that was loaded.
+    pub(super) fn of(path: &Path, lit: Lit, args: &BenchArgs) -> Result<Self, Failure> {
         let cameras = cameras(path, args, &lumbre::camera::camera_names(&lit.scene));
         for (_, options) in &cameras {
             lumbre::authored_aspect(&lit.scene, &options.choice).map_err(Failure::usage)?;

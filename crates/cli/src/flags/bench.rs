@@ -27,6 +27,8 @@ Examples:
   lumbre bench depth scene.glb --depths 1,10,50 --roulette off
   lumbre bench equal-time --time 30s --json
       this device beside the CPU, each for half a minute
+  lumbre bench build --triangles 20000,1000000
+  lumbre bench first-frame scene.glb
 
 Exit codes:
   0 done, 2 wrong usage, 65 bad data, 66 a file cannot be opened, 69 the GPU cannot be had or
@@ -51,6 +53,10 @@ pub(crate) enum Table {
     Share,
     /// The device beside the CPU, each for --time
     EqualTime,
+    /// Time to build acceleration structures, and their bytes: of a grid of --triangles, or of scenes
+    Build,
+    /// Time from the start of the process to the first frame of a scene, step by step
+    FirstFrame,
 }
 
 /// Flags of `lumbre bench`.
@@ -112,6 +118,11 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=1 << 24))]
     pub(crate) spp: Option<u32>,
+
+    /// Triangles of the grids of `build`, at least.
+    #[arg(long, value_name = "N,...", value_delimiter = ',', default_value = "1000000")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1 << 26))]
+    pub(crate) triangles: Vec<u32>,
 
     /// Time for each device in `equal-time`.
     #[arg(long, value_name = "TIME", value_parser = duration, default_value = "10s")]

@@ -34,6 +34,6 @@ void main() {
     path_store(id, path);
     Quads state = push.view.state;
     // No first hit yet.
-    state.at[STATE_NORMAL * push.view.capacity + id] = vec4(0.0);
+    state.at[STATE_NORMAL * push.view.capacity + id] = uvec4(0u);
     queues.at[id] = id;
 }

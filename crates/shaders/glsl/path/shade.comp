@@ -20,9 +20,9 @@ void store_planes(uint id, Path path, Interaction it, Surface surface) {
     Quads state = push.view.state;
     uint n = push.view.capacity;
     Rgb albedo = push.view.object_colors != 0u ? label(it.instance) : bsdf_albedo(surface.bsdf);
-    state.at[STATE_ALBEDO * n + id] = vec4(albedo, path.travelled + it.t);
-    state.at[STATE_NORMAL * n + id] = vec4(surface.frame.n, 1.0);
-    state.at[STATE_POSITION * n + id] = vec4(it.p, 0.0);
+    state.at[STATE_ALBEDO * n + id] = floatBitsToUint(vec4(albedo, path.travelled + it.t));
+    state.at[STATE_NORMAL * n + id] = floatBitsToUint(vec4(surface.frame.n, 1.0));
+    state.at[STATE_POSITION * n + id] = floatBitsToUint(vec4(it.p, 0.0));
 }
 
 // One step of a path.

@@ -1,4 +1,4 @@
-// Paths under way, as they lie in memory between passes: four numbers of all paths after one another, then the next four. A path keeps its
+// Paths under way, as they lie in memory between passes: four words of all paths after one another, then the next four. A path keeps its
 // place from the camera to the film; lists say which paths go where.
 #ifndef PATH_STATE_GLSL
 #define PATH_STATE_GLSL
@@ -87,7 +87,9 @@ uint asked_bit(uint parity, uint group) {
     return 1u << pending_slot(parity, group);
 }
 
-#define STATE(place, id) push.view.state.at[(place) * push.view.capacity + (id)]
+// Four words of a path: as they are, and as floats.
+#define STATE_WORDS(place, id) push.view.state.at[(place) * push.view.capacity + (id)]
+#define STATE(place, id) uintBitsToFloat(STATE_WORDS(place, id))
 
 // Pixels are taken in blocks of 8 x 4, so that neighbours in a list are neighbours in the picture.
 const uvec2 BLOCK = uvec2(8u, 4u);
@@ -138,12 +140,12 @@ void queue_add(uint queue, uint id) {
 
 void media_store(uint place, uint id, MediumStack media) {
     Quads state = push.view.state;
-    state.at[place * push.view.capacity + id] = uintBitsToFloat(media.material);
-    state.at[(place + 1u) * push.view.capacity + id] = media.ior;
+    state.at[place * push.view.capacity + id] = media.material;
+    state.at[(place + 1u) * push.view.capacity + id] = floatBitsToUint(media.ior);
 }
 
 MediumStack media_load(uint place, uint id) {
-    return MediumStack(floatBitsToUint(STATE(place, id)), STATE(place + 1u, id));
+    return MediumStack(STATE_WORDS(place, id), STATE(place + 1u, id));
 }
 
 // Light that scattered this many times on its way to the camera, within the bound that the settings set.
@@ -162,12 +164,12 @@ void path_store(uint id, Path path) {
     uint n = push.view.capacity;
     uint bits = (path.through_solid ? 1u : 0u) | (path.seen_by_camera ? 2u : 0u) | (path.straight ? 4u : 0u)
         | (path.caught << 3) | (path.asked << 10) | (path.depth << 14);
-    state.at[STATE_RAY * n + id] = vec4(path.ray.origin, 0.0);
-    state.at[STATE_DIRECTION * n + id] = vec4(path.ray.dir, path.arrival_pdf);
-    state.at[STATE_BETA * n + id] = vec4(path.beta, path.travelled);
-    state.at[STATE_ARRIVAL * n + id] = vec4(path.arrival_p, path.eta_scale);
-    state.at[STATE_RADIANCE * n + id] = vec4(path.radiance, path.alpha);
-    state.at[STATE_BITS * n + id] = vec4(uintBitsToFloat(bits), path.wavelength, 0.0, 0.0);
+    state.at[STATE_RAY * n + id] = floatBitsToUint(vec4(path.ray.origin, 0.0));
+    state.at[STATE_DIRECTION * n + id] = floatBitsToUint(vec4(path.ray.dir, path.arrival_pdf));
+    state.at[STATE_BETA * n + id] = floatBitsToUint(vec4(path.beta, path.travelled));
+    state.at[STATE_ARRIVAL * n + id] = floatBitsToUint(vec4(path.arrival_p, path.eta_scale));
+    state.at[STATE_RADIANCE * n + id] = floatBitsToUint(vec4(path.radiance, path.alpha));
+    state.at[STATE_BITS * n + id] = uvec4(bits, floatBitsToUint(path.wavelength), 0u, 0u);
     if (HAS_SOLID) {
         media_store(STATE_MEDIA, id, path.media);
     }
@@ -185,7 +187,7 @@ Spectrum pending_brought(uint id, uint asked, uint parity) {
 }
 
 uint path_load_asked(uint id) {
-    return (floatBitsToUint(STATE(STATE_BITS, id).x) >> 10) & 15u;
+    return (STATE_WORDS(STATE_BITS, id).x >> 10) & 15u;
 }
 
 Path path_load(uint id) {
@@ -194,8 +196,8 @@ Path path_load(uint id) {
     vec4 beta = STATE(STATE_BETA, id);
     vec4 arrival = STATE(STATE_ARRIVAL, id);
     vec4 radiance = STATE(STATE_RADIANCE, id);
-    vec4 more = STATE(STATE_BITS, id);
-    uint bits = floatBitsToUint(more.x);
+    uvec4 more = STATE_WORDS(STATE_BITS, id);
+    uint bits = more.x;
     Path path;
     path.smp = path_sampler(id);
     path.ray = ray_new(ray.xyz, direction.xyz, 0.0);
@@ -205,7 +207,7 @@ Path path_load(uint id) {
     path.arrival_p = arrival.xyz;
     path.eta_scale = arrival.w;
     path.alpha = radiance.w;
-    path.wavelength = more.y;
+    path.wavelength = uintBitsToFloat(more.y);
     path.through_solid = (bits & 1u) != 0u;
     path.seen_by_camera = (bits & 2u) != 0u;
     path.straight = (bits & 4u) != 0u;
@@ -222,25 +224,24 @@ Path path_load(uint id) {
 }
 
 uint path_load_depth(uint id) {
-    return floatBitsToUint(STATE(STATE_BITS, id).x) >> 14;
+    return STATE_WORDS(STATE_BITS, id).x >> 14;
 }
 
 // What a path's ray has met; `geometry` is NONE for a miss.
 void hit_store(uint id, HitPayload hit) {
     Quads state = push.view.state;
     uint n = push.view.capacity;
-    state.at[STATE_HIT * n + id] = vec4(uintBitsToFloat(uvec2(hit.geometry, hit.primitive)), hit.b);
-    state.at[STATE_RAY * n + id].w = hit.t;
+    state.at[STATE_HIT * n + id] = uvec4(hit.geometry, hit.primitive, floatBitsToUint(hit.b));
+    state.at[STATE_RAY * n + id].w = floatBitsToUint(hit.t);
 }
 
 // False for a miss.
 bool hit_load(uint id, out Hit hit) {
-    vec4 met = STATE(STATE_HIT, id);
-    uint geometry = floatBitsToUint(met.x);
-    if (geometry == NONE) {
+    uvec4 met = STATE_WORDS(STATE_HIT, id);
+    if (met.x == NONE) {
         return false;
     }
-    hit = hit_of(geometry, floatBitsToUint(met.y), met.zw, STATE(STATE_RAY, id).w);
+    hit = hit_of(met.x, met.y, uintBitsToFloat(met.zw), uintBitsToFloat(STATE_WORDS(STATE_RAY, id).w));
     return true;
 }
 
@@ -251,10 +252,10 @@ void pending_store(uint group, uint id, PendingLight light, uint depth) {
     uint slot = pending_slot(push.parity, group);
     uint place = STATE_SHADOW + 4u * slot;
     uint bits = (light.solids_pass ? 1u : 0u) | (depth << 1);
-    state.at[place * n + id] = vec4(light.ray.origin, light.ray.t_max);
-    state.at[(place + 1u) * n + id] = vec4(light.ray.dir, uintBitsToFloat(bits));
-    state.at[(place + 2u) * n + id] = vec4(light.contribution, light.mis_weight);
-    state.at[(place + 3u) * n + id] = vec4(light.prob, light.wavelength, 0.0, 0.0);
+    state.at[place * n + id] = floatBitsToUint(vec4(light.ray.origin, light.ray.t_max));
+    state.at[(place + 1u) * n + id] = uvec4(floatBitsToUint(light.ray.dir), bits);
+    state.at[(place + 2u) * n + id] = floatBitsToUint(vec4(light.contribution, light.mis_weight));
+    state.at[(place + 3u) * n + id] = floatBitsToUint(vec4(light.prob, light.wavelength, 0.0, 0.0));
     if (HAS_SOLID) {
         media_store(STATE_SHADOW_MEDIA + 2u * slot, id, light.media);
     }
@@ -263,20 +264,20 @@ void pending_store(uint group, uint id, PendingLight light, uint depth) {
 // What a shadow ray has brought, in the place of what it would bring.
 void pending_arrived(uint group, uint id, Spectrum arrived) {
     Quads state = push.view.state;
-    state.at[(STATE_SHADOW + 4u * pending_slot(push.parity, group) + 2u) * push.view.capacity + id] = vec4(arrived, 0.0);
+    state.at[(STATE_SHADOW + 4u * pending_slot(push.parity, group) + 2u) * push.view.capacity + id] = floatBitsToUint(vec4(arrived, 0.0));
 }
 
 PendingLight pending_load(uint group, uint id, out uint depth) {
     uint slot = pending_slot(push.parity, group);
     uint place = STATE_SHADOW + 4u * slot;
     vec4 ray = STATE(place, id);
-    vec4 direction = STATE(place + 1u, id);
+    uvec4 direction = STATE_WORDS(place + 1u, id);
     vec4 contribution = STATE(place + 2u, id);
     vec4 more = STATE(place + 3u, id);
-    uint bits = floatBitsToUint(direction.w);
+    uint bits = direction.w;
     depth = bits >> 1;
     PendingLight light;
-    light.ray = Ray(ray.xyz, direction.xyz, 0.0, ray.w, 0.0);
+    light.ray = Ray(ray.xyz, uintBitsToFloat(direction.xyz), 0.0, ray.w, 0.0);
     light.contribution = contribution.xyz;
     light.mis_weight = contribution.w;
     light.prob = more.x;

@@ -29,6 +29,8 @@ pub(super) struct Needs {
     pub(super) solids: bool,
     /// Shadow catchers.
     pub(super) catchers: bool,
+    /// Surfaces that are there only in part.
+    pub(super) covered: bool,
 }
 
 impl SceneConstants {
@@ -51,6 +53,7 @@ impl SceneConstants {
             transmission: material(|m| m.transmission > 0.0),
             solids: material(|m| m.has(flag::SOLID)),
             catchers: material(|m| m.has(flag::SHADOW_CATCHER)),
+            covered: material(MaterialRecord::has_coverage),
         };
         SceneConstants { constants, needs }
     }
