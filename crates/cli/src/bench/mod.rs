@@ -15,6 +15,7 @@ mod size;
 mod still;
 mod sweep;
 mod table;
+mod view;
 
 use crate::exit::{Code, Failure};
 use crate::flags::bench::{BenchArgs, Table as Which};
@@ -42,6 +43,7 @@ pub(crate) fn run(args: &BenchArgs, started: Instant) -> Result<Code, Failure> {
         Which::EqualTime => equal_time::table(args),
         Which::Build => build::table(args),
         Which::FirstFrame => first_frame::table(args, started),
+        Which::View => view::table(args),
     })?;
     console::result(match (args.json, args.markdown) {
         (true, _) => table.json(),

@@ -88,7 +88,12 @@ impl Place {
     }
 }
 
-impl Eye<'_> {
+impl<'a> Eye<'a> {
+    /// The scene that it looks at.
+    pub(super) fn scene(&self) -> &'a Scene {
+        self.place
+    }
+
     /// What it sees in a picture of this size.
     pub(super) fn view(&self, size: [u32; 2], settings: RenderSettings) -> Result<View, Failure> {
         let aspect = size[0] as f32 / size[1] as f32;

@@ -29,6 +29,7 @@ Examples:
       this device beside the CPU, each for half a minute
   lumbre bench build --triangles 20000,1000000
   lumbre bench first-frame scene.glb
+  lumbre bench view scene.glb --sizes 1280x720 --device cpu
 
 Exit codes:
   0 done, 2 wrong usage, 65 bad data, 66 a file cannot be opened, 69 the GPU cannot be had or
@@ -57,6 +58,8 @@ pub(crate) enum Table {
     Build,
     /// Time from the start of the process to the first frame of a scene, step by step
     FirstFrame,
+    /// How soon a view answers, without a window: to moves of the camera, and to edits for --time
+    View,
 }
 
 /// Flags of `lumbre bench`.
@@ -124,7 +127,7 @@ pub(crate) struct BenchArgs {
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1 << 26))]
     pub(crate) triangles: Vec<u32>,
 
-    /// Time for each device in `equal-time`.
+    /// Time for each device in `equal-time`, and of the edits of `view`.
     #[arg(long, value_name = "TIME", value_parser = duration, default_value = "10s")]
     pub(crate) time: Duration,
 
