@@ -30,8 +30,8 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Choices of settings whose pipelines are kept.
-const VARIANTS: usize = 4;
+/// Choices of settings and features whose pipelines are kept.
+const VARIANTS: usize = 8;
 
 /// Most scattering events of one submission; longer paths take several.
 const MOST_STEPS: u32 = 64;

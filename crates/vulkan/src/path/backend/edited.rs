@@ -9,7 +9,7 @@ use std::sync::PoisonError;
 impl VulkanBackend {
     /// Takes an edited scene, which differs from the present one in `changes`: what it then draws is what a new backend with the same
     /// options would draw. What changed goes to the device; pipelines are made again only when the scene needs a feature that those there are
-    /// lack, and acceleration structures of meshes only where [`SceneOnGpu::update`] says so.
+    /// lack, and acceleration structures of meshes only where [`crate::SceneOnGpu::update`] says so.
     ///
     /// # Errors
     /// If memory is out or the device is lost. Nothing can be drawn then until another update succeeds.
