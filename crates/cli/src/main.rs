@@ -6,6 +6,7 @@ mod compare;
 mod console;
 mod device;
 mod devices;
+mod edited;
 mod exit;
 mod flags;
 mod generate;
@@ -40,9 +41,9 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<Code, Failure> {
     match command {
         Command::Render(mut args) => render::run(&mut args),
-        Command::Info(args) => info::run(&args),
+        Command::Info(mut args) => info::run(&mut args),
         Command::Devices(args) => devices::run(&args),
-        Command::Bench(args) => bench::run(&args),
+        Command::Bench(mut args) => bench::run(&mut args),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man(args) => generate::man(&args),
