@@ -7,6 +7,7 @@ use super::sampling::SamplingArgs;
 use super::values::{Depth, Size, depth, duration, fov, size, vec3};
 use clap::{Args, ValueEnum};
 use lumbre::core::math::Vec3;
+use lumbre::core::settings::RenderSettings;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -148,4 +149,11 @@ pub(crate) struct BenchArgs {
     // Last, since its heading holds for all that follows.
     #[command(flatten)]
     pub(crate) loading: LoadingArgs,
+}
+
+impl BenchArgs {
+    /// What the integrator honours.
+    pub(crate) fn settings(&self) -> RenderSettings {
+        self.sampling.settings(self.loading.edited.settings(RenderSettings::default()))
+    }
 }
