@@ -3,8 +3,8 @@
 use crate::kit::Window;
 use eframe::egui::{self, Key, Modifiers, PointerButton};
 use glam::Vec3;
-use lumbre::session::{Event, Picked};
 use lumbre::scene::{MaterialId, NodeId};
+use lumbre::session::{Event, Picked};
 use std::sync::Arc;
 
 #[test]
@@ -13,7 +13,8 @@ fn the_first_picture_is_that_of_the_files_camera() {
     let wanted = window.fake.wanted();
     let compiled = lumbre::compile(&wanted.scene).unwrap().scene;
     let aspect = wanted.size[0] as f32 / wanted.size[1] as f32;
-    let found = lumbre::find_camera(&wanted.scene, &compiled, &lumbre::CameraOptions::default(), aspect).unwrap();
+    let found =
+        lumbre::find_camera(&wanted.scene, &compiled, &lumbre::CameraOptions::default(), aspect).unwrap();
     assert!(!found.framed);
     assert_eq!(wanted.camera, found.camera, "to the bit what `lumbre render` draws");
     assert!(wanted.size[0] > 800 && wanted.size[1] > 600, "{:?}", wanted.size);
@@ -24,7 +25,9 @@ fn a_left_drag_orbits_about_what_is_looked_at() {
     let mut window = Window::with("cornell.glb");
     let before = window.state().pose().unwrap();
     let (from, to) = (window.at(0.5, 0.5), window.at(0.6, 0.5));
-    window.drag(from, to, PointerButton::Primary, |w| assert!(w.fake.wanted().moving, "rough frames while it moves"));
+    window.drag(from, to, PointerButton::Primary, |w| {
+        assert!(w.fake.wanted().moving, "rough frames while it moves")
+    });
     let after = window.state().pose().unwrap();
     assert!((after.pivot() - before.pivot()).length() < 1e-3 * before.reach);
     let aside = (after.camera.origin - before.camera.origin).dot(before.camera.right);

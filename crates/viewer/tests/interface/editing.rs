@@ -58,7 +58,10 @@ fn a_look_changes_no_scene() {
     let after = window.fake.wanted();
     assert!((after.look.offset_ev + 1.0 / 3.0).abs() < 1e-5);
     assert!(Arc::ptr_eq(&before.scene, &after.scene));
-    assert_eq!((before.camera, before.settings, before.restarts), (after.camera, after.settings, after.restarts));
+    assert_eq!(
+        (before.camera, before.settings, before.restarts),
+        (after.camera, after.settings, after.restarts)
+    );
     window.press(Modifiers::NONE, Key::X);
     // The exposure of the frame that was shown.
     assert_eq!(window.fake.wanted().look.look.exposure, lumbre::core::color::Exposure::Ev(1.5));
@@ -87,7 +90,9 @@ fn lights_are_added_picked_moved_and_removed() {
 fn an_arrow_moves_what_is_picked() {
     let mut window = Window::with("cornell.glb");
     let node = shown_node(&window);
-    window.state_mut().obey(lumbre_viewer::command::Command::Pick(Item::Node(node)), &eframe::egui::Context::default());
+    window
+        .state_mut()
+        .obey(lumbre_viewer::command::Command::Pick(Item::Node(node)), &eframe::egui::Context::default());
     window.steps(2);
     let place = |w: &Window| w.fake.wanted().scene.nodes[node.index()].transform.w_axis.truncate();
     let (before, camera) = (place(&window), window.fake.wanted().camera);

@@ -77,7 +77,10 @@ fn edits_are_saved_opened_and_named_by_a_command() {
     let choice = lumbre_viewer::dialog::Choice::File(lumbre_viewer::dialog::Purpose::SaveEdits, file.clone());
     assert_eq!(window.state_mut().chosen(choice), None);
     let line = window.state().command_line().unwrap();
-    assert!(line.starts_with("lumbre render ") && line.contains(&format!("--edits '{}'", file.display())), "{line}");
+    assert!(
+        line.starts_with("lumbre render ") && line.contains(&format!("--edits '{}'", file.display())),
+        "{line}"
+    );
     // Another window, another day.
     let mut again = Window::with("cornell.glb");
     again.state_mut().loader.open(&file);
@@ -99,7 +102,8 @@ fn pictures_are_saved_by_the_session() {
     let path = folder.path().join("picture.exr");
     {
         use egui_kittest::kittest::Queryable;
-        let field = window.ui.get_all_by_label(field).find(|n| n.value().is_some()).expect("the name of the file");
+        let field =
+            window.ui.get_all_by_label(field).find(|n| n.value().is_some()).expect("the name of the file");
         field.focus();
         field.set_text_value_accesskit(&path.to_string_lossy());
     }
@@ -118,14 +122,20 @@ fn an_environment_becomes_the_sky_and_a_missing_one_does_not() {
     let mut window = Window::with("cornell.glb");
     let before = window.fake.wanted().scene;
     window.state_mut().loader.open(&sky);
-    let lit = |w: &Window| matches!(w.fake.wanted().scene.environment.background, lumbre::scene::Background::Map(_));
+    let lit = |w: &Window| {
+        matches!(w.fake.wanted().scene.environment.background, lumbre::scene::Background::Map(_))
+    };
     window.until("a sky", lit);
     window.rest();
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(window.fake.wanted().scene.environment, before.environment);
     window.press(Modifiers::COMMAND, Key::Y);
     assert!(lit(&window));
-    let edits = write(folder.path(), "edits.json", r#"{"lumbreEdits": 1, "sky": {"kind": "file", "file": "gone.hdr"}}"#);
+    let edits = write(
+        folder.path(),
+        "edits.json",
+        r#"{"lumbreEdits": 1, "sky": {"kind": "file", "file": "gone.hdr"}}"#,
+    );
     window.state_mut().loader.open(&edits);
     window.until("an error", |w| w.state().log.pending().is_some());
     window.rest();

@@ -114,7 +114,8 @@ impl Window {
             app.receive(ui.ctx());
             app.show(ui);
         };
-        let builder = Harness::builder().with_size(size).with_pixels_per_point(scale).with_step_dt(1.0 / 60.0);
+        let builder =
+            Harness::builder().with_size(size).with_pixels_per_point(scale).with_step_dt(1.0 / 60.0);
         let ui = builder.build_ui_state(step, App::new(state, start));
         let mut window = Window { ui, fake };
         window.steps(3);
@@ -185,7 +186,13 @@ impl Window {
     }
 
     /// Drags from one place to another in some steps, and does `during` before it lets go.
-    pub(crate) fn drag(&mut self, from: Pos2, to: Pos2, button: PointerButton, during: impl FnOnce(&mut Window)) {
+    pub(crate) fn drag(
+        &mut self,
+        from: Pos2,
+        to: Pos2,
+        button: PointerButton,
+        during: impl FnOnce(&mut Window),
+    ) {
         self.ui.event(egui::Event::PointerMoved(from));
         self.steps(1);
         self.button(from, button, true, Modifiers::NONE);
@@ -227,7 +234,8 @@ impl Window {
 
     /// Sets a number by the name of its row.
     pub(crate) fn set_number(&mut self, name: &str, value: f64) {
-        let field = self.ui.get_all_by_label(name).find(|n| n.value().is_some()).expect("a field of this name");
+        let field =
+            self.ui.get_all_by_label(name).find(|n| n.value().is_some()).expect("a field of this name");
         field.set_value_accesskit(value);
         self.steps(2);
     }

@@ -106,7 +106,8 @@ fn what_the_session_says_is_told() {
 #[test]
 fn another_device_is_wanted_where_it_is_chosen() {
     let mut window = Window::with("cornell.glb");
-    let running = lumbre_viewer::state::Running { device: lumbre::Device::Cpu, ..window.state().running.clone() };
+    let running =
+        lumbre_viewer::state::Running { device: lumbre::Device::Cpu, ..window.state().running.clone() };
     let context = eframe::egui::Context::default();
     window.state_mut().obey(lumbre_viewer::command::Command::Run(running), &context);
     window.steps(2);
