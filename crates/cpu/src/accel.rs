@@ -3,15 +3,20 @@
 //! Meshes that stand in the world once are merged into one structure in world space (one for each kind of any-hit work, so that
 //! the leaves of a tree do not make its trunk ask for alpha), so that a scene of a hundred parts does
 //! not send each ray through a hundred trees with a transform each (what Embree's users do by putting all shapes into one scene).
-//! Meshes used more than once keep one structure each, shared by their instances, and so do those of a scene that is to be edited
-//! ([`CpuOptions::merge`]): moving one or changing its material then leaves their structures as they are.
+//! Meshes used more than once keep one structure each, shared by their instances.
+//!
+//! Where a scene is to be edited ([`CpuOptions::merge`]), each mesh keeps structures of its own ([`apart`]): moving it, hiding it or
+//! changing its materials leaves them as they are.
+
+mod apart;
 
 use crate::bvh::{Blas, Hit, InstanceDesc, SimdLevel, Tlas};
+use apart::Part;
 use glam::{Affine3A, Vec3};
 use lumbre_core::Ray;
 use lumbre_scene::compiled::geometry::{InstanceRecord, MeshRecord};
 use lumbre_scene::compiled::material::MaterialRecord;
-use lumbre_scene::{CompiledScene, Part, SceneChanges};
+use lumbre_scene::{CompiledScene, SceneChanges};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -38,6 +43,8 @@ pub struct Accel {
     camera_tlas: Option<Tlas>,
     /// Where the hits of each instance of `tlas` lie in the scene.
     origins: Vec<Origin>,
+    /// The structures, where meshes are not merged.
+    parts: Vec<Part>,
 }
 
 /// Instances of the top level while they are collected.
@@ -53,6 +60,8 @@ struct Instances {
 enum Origin {
     /// An instance of the scene.
     Instance(u32),
+    /// Some triangles of an instance of the scene.
+    Part(u32, Arc<[u32]>),
     /// Many: instance and triangle of each.
     Merged(Vec<[u32; 2]>),
 }
@@ -62,6 +71,9 @@ impl Origin {
     fn restore(&self, hit: &Hit) -> Hit {
         match self {
             Origin::Instance(instance) => Hit { instance: *instance, ..*hit },
+            Origin::Part(instance, triangles) => {
+                Hit { instance: *instance, triangle: triangles[hit.triangle as usize], ..*hit }
+            }
             Origin::Merged(triangles) => {
                 let [instance, triangle] = triangles[hit.triangle as usize];
                 Hit { instance, triangle, ..*hit }
@@ -71,7 +83,7 @@ impl Origin {
 }
 
 /// What any-hit work an instance needs: merged geometry must agree on it.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Class {
     opaque: bool,
     culls: bool,
@@ -106,8 +118,18 @@ impl Accel {
 
     /// Builds the structures as `options` ask.
     pub fn with_options(scene: &CompiledScene, options: CpuOptions) -> Self {
-        let (instances, blas) = if options.merge { merged(scene) } else { apart(scene) };
-        Accel::over(instances, blas, options)
+        if options.merge {
+            let (instances, blas) = merged(scene);
+            return Accel::over(instances, blas, options);
+        }
+        Accel::apart(scene, apart::parts(scene, &[]), options)
+    }
+
+    /// Structures of parts, and the top level over them.
+    fn apart(scene: &CompiledScene, parts: Vec<Part>, options: CpuOptions) -> Self {
+        let (instances, blas) =
+            (apart::instances(scene, &parts), parts.iter().map(|p| p.blas.clone()).collect());
+        Accel { parts, ..Accel::over(instances, blas, options) }
     }
 
     /// The top level over structures.
@@ -126,25 +148,26 @@ impl Accel {
             tlas: tlas(|c| c.opaque),
             camera_tlas: culls.then(|| tlas(|c| c.opaque && !c.culls)),
             origins,
+            parts: Vec::new(),
         }
     }
 
     /// Brings the structures of `before` up to date with `after`, which differs in `changes`: they are then those that would be built of
-    /// it. Where meshes are not merged, those that move, are hidden or become opaque cost the top level only.
+    /// it. Where meshes are not merged, those that move or are hidden cost the top level only, and so do those that become opaque or
+    /// cease to be, unless other parts of them do not.
     pub fn update(&mut self, before: &CompiledScene, after: &CompiledScene, changes: SceneChanges) {
         let options = self.options;
+        let reclassed = classes(before).ne(classes(after));
         let made = if changes.geometry() || ranges(before).ne(ranges(after)) {
             Accel::with_options(after, options)
-        } else if options.merge
-            && (moved(before, after, changes) || triangle_classes(before).ne(triangle_classes(after)))
-        {
-            Accel::with_options(after, options)
-        } else if !options.merge
-            && (moved(before, after, changes) || mesh_classes(before).ne(mesh_classes(after)))
-        {
-            Accel::over(instances_apart(after), self.tlas.blas().to_vec(), options)
-        } else {
+        } else if !reclassed && !moved(before, after, changes) {
             return;
+        } else if options.merge {
+            Accel::with_options(after, options)
+        } else {
+            let earlier = std::mem::take(&mut self.parts);
+            let parts = if reclassed { apart::parts(after, &earlier) } else { earlier };
+            Accel::apart(after, parts, options)
         };
         *self = made.with_level(self.level());
     }
@@ -165,12 +188,16 @@ impl Accel {
     pub fn memory(&self) -> usize {
         let merged = |o: &Origin| match o {
             Origin::Instance(_) => 0,
+            // Shared by the instances of a mesh.
+            Origin::Part(..) => 0,
             Origin::Merged(triangles) => size_of_val(&triangles[..]),
         };
         let meshes: usize = self.tlas.blas().iter().map(|b| b.memory()).sum();
         let trunks = self.tlas.memory() + self.camera_tlas.as_ref().map_or(0, Tlas::memory);
         let origins = size_of_val(&self.origins[..]) + self.origins.iter().map(merged).sum::<usize>();
-        meshes + trunks + origins
+        let parts: usize =
+            self.parts.iter().filter_map(|p| p.triangles.as_ref()).map(|t| size_of_val(&t[..])).sum();
+        meshes + trunks + origins + parts
     }
 
     /// The structures under the top level.
@@ -216,30 +243,13 @@ fn ranges(scene: &CompiledScene) -> impl Iterator<Item = [u32; 4]> {
 /// Whether instances stand elsewhere, or rays see others of them.
 fn moved(before: &CompiledScene, after: &CompiledScene, changes: SceneChanges) -> bool {
     let place = |i: &InstanceRecord| [i.mesh, i.first_transform, i.transform_count, i.mask];
-    changes.has(Part::Transforms) || before.instances.iter().map(place).ne(after.instances.iter().map(place))
+    changes.has(lumbre_scene::Part::Transforms)
+        || before.instances.iter().map(place).ne(after.instances.iter().map(place))
 }
 
-fn mesh_classes(scene: &CompiledScene) -> impl Iterator<Item = Class> {
-    scene.meshes.iter().map(Class::of_mesh)
-}
-
-/// Classes of all materials, which are those of their triangles.
-fn triangle_classes(scene: &CompiledScene) -> impl Iterator<Item = Class> {
+/// Classes of all materials.
+fn classes(scene: &CompiledScene) -> impl Iterator<Item = Class> {
     scene.materials.iter().map(Class::of_material)
-}
-
-/// A structure for each mesh.
-fn apart(scene: &CompiledScene) -> (Instances, Vec<Arc<Blas>>) {
-    let blas = scene.meshes.par_iter().map(|m| Arc::new(build_mesh(scene, m))).collect();
-    (instances_apart(scene), blas)
-}
-
-/// Instances of structures that are numbered as the meshes are.
-fn instances_apart(scene: &CompiledScene) -> Instances {
-    let mut instances = Instances::default();
-    (0..scene.instances.len() as u32)
-        .for_each(|id| instances.add(scene, id, scene.instances[id as usize].mesh));
-    instances
 }
 
 /// Structures for the meshes that stand in the world once, together, and one for each of the others.
@@ -266,7 +276,10 @@ fn merged(scene: &CompiledScene) -> (Instances, Vec<Arc<Blas>>) {
     let mut shared: Vec<u32> = others.iter().map(|&i| scene.instances[i as usize].mesh).collect();
     shared.sort_unstable();
     shared.dedup();
-    blas.par_extend(shared.par_iter().map(|&m| Arc::new(build_mesh(scene, &scene.meshes[m as usize]))));
+    blas.par_extend(shared.par_iter().map(|&m| {
+        let mesh = &scene.meshes[m as usize];
+        Arc::new(build_mesh(scene, mesh, 0..mesh.triangle_count))
+    }));
     for id in others {
         let mesh = scene.instances[id as usize].mesh;
         let place = shared.binary_search(&mesh).expect("it is one of them");
@@ -286,11 +299,12 @@ impl Instances {
     }
 }
 
-fn build_mesh(scene: &CompiledScene, m: &MeshRecord) -> Blas {
-    let (v, t) = (m.first_vertex as usize, m.first_triangle as usize);
+/// A structure over some triangles of a mesh.
+fn build_mesh(scene: &CompiledScene, m: &MeshRecord, triangles: impl Iterator<Item = u32>) -> Blas {
+    let v = m.first_vertex as usize;
     let positions = &scene.positions[v..v + m.vertex_count as usize];
-    let triangles = &scene.triangles[t..t + m.triangle_count as usize];
-    let local: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|i| i - m.first_vertex)).collect();
+    let triangle = |t: u32| scene.triangles[(m.first_triangle + t) as usize].map(|i| i - m.first_vertex);
+    let local: Vec<[u32; 3]> = triangles.map(triangle).collect();
     Blas::build(bytemuck::cast_slice(positions), &local)
 }
 

@@ -205,6 +205,14 @@ pub const EDITS: &[Edit] = &[
     ("glass to plaster", |s| s.materials[material::GLASS] = Material::diffuse(grey(0.7))),
     ("plastic to glass", |s| s.materials[material::PLAIN] = Material::glass(1.4, 0.1)),
     ("no varnish", |s| s.materials[material::COATED].clearcoat = None),
+    ("varnish with a hole", |s| {
+        let m = &mut s.materials[material::COATED];
+        (m.alpha_mode, m.base_color_texture) = (AlphaMode::Mask { cutoff: 0.6 }, Some(TextureId(1).into()));
+    }),
+    ("varnish on both sides", |s| {
+        let m = &mut s.materials[material::COATED];
+        (m.double_sided, m.base_color) = (true, grey(0.3));
+    }),
     ("cloth", |s| {
         let color = Rgb::new(0.9, 0.3, 0.2);
         let sheen = Sheen { color, color_texture: None, roughness: 0.4, roughness_texture: None };

@@ -22,9 +22,9 @@ pub use open::{GpuOptions, OpenDevice};
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
-use lumbre_cpu::CpuBackend;
 use lumbre_cpu::bvh::SimdLevel;
-use lumbre_scene::CompiledScene;
+use lumbre_cpu::{CpuBackend, CpuOptions};
+use lumbre_scene::{CompiledScene, SceneChanges};
 use std::ops::Range;
 
 /// A device failed while it rendered: it was lost, or its memory ran out.
@@ -59,6 +59,17 @@ pub trait Backend: Send + Sync {
         film: &mut Film,
         control: &dyn Control,
     ) -> Result<Progress, RenderError>;
+
+    /// Takes an edited scene, which differs from the present one in `changes` ([`lumbre_scene::recompile`]); what it then draws is what
+    /// a backend that was prepared for that scene would draw. What did not change is left as it is, most of all where the
+    /// device was asked for that ([`OpenDevice::editable`]). Here, for backends that cannot: an error.
+    ///
+    /// # Errors
+    /// If the device fails. Then nothing can be rendered before another update succeeds, or after [`recover`](Self::recover), with the edited
+    /// scene.
+    fn update(&mut self, _scene: CompiledScene, _changes: SceneChanges) -> Result<(), RenderError> {
+        Err(RenderError { device: self.device(), reason: "its scene cannot be edited".into() })
+    }
 
     /// Does what the first render of a view does once, such as making pipelines for its settings, so that renders are as fast as they
     /// will be and can be timed.
@@ -135,6 +146,11 @@ impl Backend for CpuBackend {
     ) -> Result<Progress, RenderError> {
         Ok(CpuBackend::render(self, view, samples, film, control))
     }
+
+    fn update(&mut self, scene: CompiledScene, changes: SceneChanges) -> Result<(), RenderError> {
+        CpuBackend::update(self, scene, changes);
+        Ok(())
+    }
 }
 
 /// The CPU with its instruction set and the threads of the pool that asks.
@@ -158,6 +174,14 @@ pub fn prepare(scene: CompiledScene, device: Device) -> Result<Box<dyn Backend>,
 /// # Errors
 /// If the environment variable `LUMBRE_SIMD` holds no known level.
 pub fn prepare_cpu(scene: CompiledScene) -> Result<CpuBackend, DeviceError> {
+    prepare_cpu_with(scene, CpuOptions::default())
+}
+
+/// The same, as `options` ask.
+///
+/// # Errors
+/// As [`prepare_cpu`].
+pub fn prepare_cpu_with(scene: CompiledScene, options: CpuOptions) -> Result<CpuBackend, DeviceError> {
     let level = SimdLevel::detect()?;
-    Ok(CpuBackend::new(scene).with_level(level))
+    Ok(CpuBackend::with_options(scene, options).with_level(level))
 }

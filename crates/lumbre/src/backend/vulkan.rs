@@ -8,7 +8,7 @@ use crate::look::Look;
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
-use lumbre_scene::CompiledScene;
+use lumbre_scene::{CompiledScene, SceneChanges};
 use lumbre_vulkan::{
     Adapter, Kind, Options, PostLook, SceneOptions, Validation, VulkanBackend, VulkanError, Wanted,
 };
@@ -74,12 +74,12 @@ pub(super) fn open(device: &Device, options: &GpuOptions) -> Result<(Gpu, Vec<St
     opened.map_err(|e| e.to_string())
 }
 
-/// Brings a scene to a GPU.
+/// Brings a scene to a GPU; `merge`: meshes that stand in the world once share acceleration structures.
 ///
 /// # Errors
 /// If it fails or has too little memory, in one line.
-pub(super) fn prepare(gpu: &Gpu, scene: &CompiledScene) -> Result<Box<dyn Backend>, String> {
-    let backend = VulkanBackend::new(gpu, scene, SceneOptions::default());
+pub(super) fn prepare(gpu: &Gpu, scene: &CompiledScene, merge: bool) -> Result<Box<dyn Backend>, String> {
+    let backend = VulkanBackend::new(gpu, scene, SceneOptions { merge, ..SceneOptions::default() });
     Ok(Box::new(backend.map_err(|e| e.to_string())?))
 }
 
@@ -100,6 +100,10 @@ impl Backend for VulkanBackend {
         control: &dyn Control,
     ) -> Result<Progress, RenderError> {
         VulkanBackend::render(self, view, samples, film, control).map_err(|e| failed(self, &e))
+    }
+
+    fn update(&mut self, scene: CompiledScene, changes: SceneChanges) -> Result<(), RenderError> {
+        VulkanBackend::update(self, &scene, changes).map_err(|e| failed(self, &e))
     }
 
     fn warm_up(&self, view: &View) -> Result<(), RenderError> {

@@ -12,7 +12,7 @@ use lumbre_core::Film;
 use lumbre_core::color::ease_share;
 use lumbre_core::control::Control;
 use lumbre_core::settings::{RenderSettings, View};
-use lumbre_scene::{CompiledScene, Scene, compile};
+use lumbre_scene::{CompiledScene, Scene, SceneChanges, compile, recompile};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
@@ -33,7 +33,8 @@ pub(super) fn run(shared: Arc<Shared>, gpu: GpuOptions, sink: Arc<dyn FrameSink>
         state.wanted.clone()
     };
     show.look(wanted.look);
-    let mut engine = Engine { shared, gpu, sink, show, wanted, number: 1, failed: None, refused: None };
+    let pace = Pace::new(false);
+    let mut engine = Engine { shared, gpu, sink, show, wanted, number: 1, failed: None, refused: None, pace };
     // `None` comes from far inside once the session is over.
     let _ = engine.work();
 }
@@ -50,6 +51,8 @@ struct Engine {
     failed: Option<Device>,
     /// The scene that could not be compiled.
     refused: Option<Arc<Scene>>,
+    /// Of the device that draws.
+    pace: Pace,
 }
 
 /// A scene as it was written and as it is drawn.
@@ -60,8 +63,8 @@ struct Made {
 
 /// Why frames of a backend ended.
 enum Next {
-    /// Another scene is to be drawn.
-    Scene(Box<Made>),
+    /// Another scene is to be drawn; in what it differs if it is an edited form of the last.
+    Scene(Box<Made>, Option<SceneChanges>),
     /// Another device is wanted.
     Device,
     /// The device failed.
@@ -82,13 +85,21 @@ impl Engine {
         let mut made = self.first_scene()?;
         loop {
             let backend = self.prepare(&made)?;
-            *self.shared.drawn() = Some(Arc::new(made.compiled.clone()));
-            match self.frames(&*backend, &made)? {
-                Next::Device => {}
-                Next::Scene(other) => made = *other,
-                Next::Lost(error) => {
-                    self.failed = Some(self.wanted.device.clone());
-                    self.sink.event(Event::Notice(format!("{error}; going on with the CPU")));
+            loop {
+                *self.shared.drawn() = Some(made.compiled.clone());
+                match self.frames(&*backend, &made)? {
+                    Next::Device => break,
+                    Next::Scene(other, changes) => {
+                        made = *other;
+                        if changes.is_none_or(|c| !c.is_empty()) {
+                            break;
+                        }
+                    }
+                    Next::Lost(error) => {
+                        self.failed = Some(self.wanted.device.clone());
+                        self.sink.event(Event::Notice(format!("{error}; going on with the CPU")));
+                        break;
+                    }
                 }
             }
         }
@@ -97,21 +108,32 @@ impl Engine {
     /// The first scene that can be compiled.
     fn first_scene(&mut self) -> Option<Made> {
         loop {
-            if let Some(made) = self.compile() {
+            if let Some((made, _)) = self.compile(None) {
                 return Some(made);
             }
             self.wait(None)?;
         }
     }
 
-    /// Compiles the scene that is wanted.
-    fn compile(&mut self) -> Option<Made> {
+    /// Compiles the scene that is wanted; in what it differs from `last`, if it is an edited form of that.
+    fn compile(&mut self, last: Option<&Made>) -> Option<(Made, Option<SceneChanges>)> {
         let scene = self.wanted.scene.clone();
-        self.sink.event(Event::Preparing("compiling the scene".into()));
-        match compile(&scene) {
-            Ok(done) => {
-                done.notes.into_iter().for_each(|note| self.sink.event(Event::Notice(note)));
-                Some(Made { scene, compiled: done.scene })
+        let edited = |m: &&Made| {
+            Arc::ptr_eq(&m.scene.meshes, &scene.meshes) && Arc::ptr_eq(&m.scene.images, &scene.images)
+        };
+        let done = match last.filter(edited) {
+            Some(m) => recompile(&m.scene, &m.compiled, &scene).map(|(done, changes)| (done, Some(changes))),
+            None => {
+                self.sink.event(Event::Preparing("compiling the scene".into()));
+                compile(&scene).map(|done| (done, None))
+            }
+        };
+        match done {
+            Ok((done, changes)) => {
+                if changes.is_none() {
+                    done.notes.into_iter().for_each(|note| self.sink.event(Event::Notice(note)));
+                }
+                Some((Made { scene, compiled: done.scene }, changes))
             }
             Err(e) => {
                 self.sink.event(Event::Failed(format!("{}: {e}", scene.name)));
@@ -138,6 +160,7 @@ impl Engine {
             match opened {
                 Ok(prepared) => {
                     prepared.note.into_iter().for_each(|note| self.sink.event(Event::Notice(note)));
+                    self.pace = Pace::new(device != Device::Cpu);
                     let device = prepared.backend.device();
                     let seconds = began.elapsed().as_secs_f64();
                     self.sink.event(Event::Prepared { device, seconds });
@@ -196,9 +219,9 @@ impl Engine {
             let refused = self.refused.as_ref().is_some_and(drawn);
             if !drawn(&made.scene)
                 && !refused
-                && let Some(next) = self.compile()
+                && let Some((next, changes)) = self.compile(Some(made))
             {
-                return Some(Next::Scene(Box::new(next)));
+                return Some(Next::Scene(Box::new(next), changes));
             }
             if let Err(e) = run.turn(self, &before) {
                 return Some(Next::Lost(e));
@@ -211,7 +234,6 @@ impl Engine {
 struct Run<'a> {
     backend: &'a dyn Backend,
     canvas: Box<dyn Canvas + 'a>,
-    pace: Pace,
     estimator: Estimator,
     scale: u32,
     spp: u32,
@@ -236,7 +258,6 @@ impl<'a> Run<'a> {
         let mut run = Run {
             backend,
             canvas,
-            pace: Pace::new(!backend.pass_times().is_empty()),
             estimator: Estimator::new(&Film::new(0, 0), &engine.wanted.settings),
             scale: 1,
             spp: 0,
@@ -254,7 +275,7 @@ impl<'a> Run<'a> {
     /// Begins the picture anew, as rough as is quick.
     fn begin(&mut self, engine: &Engine) -> Result<(), RenderError> {
         self.began = Instant::now();
-        self.at_scale(engine, self.pace.scale(engine.wanted.size))
+        self.at_scale(engine, engine.pace.scale(engine.wanted.size))
     }
 
     fn at_scale(&mut self, engine: &Engine, scale: u32) -> Result<(), RenderError> {
@@ -280,7 +301,7 @@ impl<'a> Run<'a> {
     }
 
     /// One turn: a frame of what is wanted, or nothing if it rests.
-    fn turn(&mut self, engine: &Engine, before: &Wanted) -> Result<(), RenderError> {
+    fn turn(&mut self, engine: &mut Engine, before: &Wanted) -> Result<(), RenderError> {
         let wanted = &engine.wanted;
         if before.begins_anew(wanted) {
             self.begin(engine)?;
@@ -302,7 +323,7 @@ impl<'a> Run<'a> {
     }
 
     /// Takes samples and shows them, unless something interrupts.
-    fn pass(&mut self, engine: &Engine) -> Result<(), RenderError> {
+    fn pass(&mut self, engine: &mut Engine) -> Result<(), RenderError> {
         let wanted = &engine.wanted;
         let size = scaled(wanted.size, self.scale);
         let pixels = u64::from(size[0]) * u64::from(size[1]);
@@ -317,7 +338,7 @@ impl<'a> Run<'a> {
             // Uneven: what interrupted it begins anew, or lets go of all of it.
             return self.at_scale(engine, self.scale);
         }
-        self.pace.learn(done.samples, seconds);
+        engine.pace.learn(done.samples, seconds);
         self.spp += count;
         self.stats = FrameStats {
             device: self.backend.device(),

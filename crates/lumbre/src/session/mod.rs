@@ -45,7 +45,7 @@ struct Shared {
     /// The frame under way is better left.
     interrupt: AtomicBool,
     /// For picking: the scene as it is drawn.
-    drawn: Mutex<Option<Arc<CompiledScene>>>,
+    drawn: Mutex<Option<CompiledScene>>,
 }
 
 struct State {
@@ -64,7 +64,7 @@ impl Shared {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn drawn(&self) -> MutexGuard<'_, Option<Arc<CompiledScene>>> {
+    fn drawn(&self) -> MutexGuard<'_, Option<CompiledScene>> {
         self.drawn.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

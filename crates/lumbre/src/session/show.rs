@@ -102,6 +102,10 @@ pub(super) fn offset(look: &ViewLook) -> f32 {
 }
 
 fn develop(shared: &(Mutex<Slot>, Condvar), sink: &dyn FrameSink) {
+    // Threads of its own: those of the common pool would take samples first.
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(4);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("develop {i}"));
+    let pool = pool.build().expect("the system has room for threads");
     let mut last: Option<(f32, Instant)> = None;
     let mut arrived = true;
     loop {
@@ -124,11 +128,11 @@ fn develop(shared: &(Mutex<Slot>, Condvar), sink: &dyn FrameSink) {
             arrived = true;
             continue;
         };
-        let target = shot.negative.exposure_factor(&look.look) * offset(&look);
+        let target = pool.install(|| shot.negative.exposure_factor(&look.look)) * offset(&look);
         let factor = factor(&look, target, last.map(|(f, at)| (f, at.elapsed().as_secs_f32())));
         last = Some((factor, Instant::now()));
         arrived = (target / factor).log2().abs() < ARRIVED;
-        let rgba = shot.negative.develop(&look.look, factor, 4);
+        let rgba = pool.install(|| shot.negative.develop(&look.look, factor, 4));
         let stats = FrameStats { exposure_ev: factor.log2(), ..shot.stats.clone() };
         sink.frame(Frame { size: shot.negative.size(), rgba, number: shot.number, stats });
     }

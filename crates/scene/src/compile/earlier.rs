@@ -23,11 +23,17 @@ impl<'a> Earlier<'a> {
         Some(Earlier { authored: before, compiled, placed })
     }
 
-    /// Whether instances with these records and transforms stand where they stood, and are as visible.
+    /// Whether instances with these records and transforms stand where they stood.
     pub(super) fn stands(&self, instances: &[InstanceRecord], transforms: &[TransformKey]) -> bool {
-        let mask = |i: &InstanceRecord| (i.mesh, i.mask);
+        let mesh = |i: &InstanceRecord| i.mesh;
         same(&self.compiled.transforms, transforms)
-            && self.compiled.instances.iter().map(mask).eq(instances.iter().map(mask))
+            && self.compiled.instances.iter().map(mesh).eq(instances.iter().map(mesh))
+    }
+
+    /// Whether they are as visible as they were.
+    pub(super) fn shows(&self, instances: &[InstanceRecord]) -> bool {
+        let mask = |i: &InstanceRecord| i.mask;
+        self.compiled.instances.iter().map(mask).eq(instances.iter().map(mask))
     }
 
     /// Whether a map had these texels, of this strength. Other backgrounds are soon made anew.

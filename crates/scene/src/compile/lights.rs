@@ -113,6 +113,7 @@ fn same_triangles(earlier: &Earlier<'_>, out: &CompiledScene) -> bool {
     // Where ranks are shared, so is the geometry.
     Arc::ptr_eq(&before.emissive_ranks, &out.emissive_ranks)
         && earlier.stands(&out.instances, &out.transforms)
+        && earlier.shows(&out.instances)
         && Arc::ptr_eq(&before.texels, &out.texels)
         && before.textures == out.textures
         && before.materials.iter().map(shine).eq(out.materials.iter().map(shine))

@@ -45,7 +45,8 @@ fn every_edit_and_back() {
     }
 }
 
-/// Where meshes stay apart, no edit of an interactive program builds one again, but for what changes vertices or which meshes there are.
+/// Where meshes stay apart, no edit of an interactive program builds one again, but for what changes vertices, which meshes there are, or
+/// which triangles of a mesh ask for the same work.
 #[test]
 fn structures_of_meshes_stay() {
     let scene = rich();
@@ -57,8 +58,10 @@ fn structures_of_meshes_stay() {
         let (made, changes) = recompile(&scene, &start, &edited(*edit)).unwrap();
         backend.update(made.scene, changes);
         let after = backend.accel().structures();
-        let same = before.len() == after.len() && before.iter().zip(after).all(|(a, b)| Arc::ptr_eq(a, b));
-        assert_eq!(same, !changes.geometry(), "{name}");
+        let same = after.iter().all(|a| before.iter().any(|b| Arc::ptr_eq(a, b)));
+        // Two parts of a mesh become one.
+        let joins = *name == "varnish on both sides";
+        assert_eq!(same, !changes.geometry() && !joins, "{name}");
         kept += u32::from(same && changes.any(&[Part::Transforms, Part::Instances, Part::Meshes]));
     }
     assert!(kept > 10, "{kept} edits move, hide or reclass something");

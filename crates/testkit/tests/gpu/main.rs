@@ -10,3 +10,4 @@ mod planted;
 mod running;
 mod scenes;
 mod textures;
+mod updates;

@@ -11,7 +11,7 @@ use super::film::FilmOnGpu;
 use super::media::Solids;
 use super::passes::{HeadsReadback, LEAST_PATHS, MOST_PATHS, NAMES, Passes, Paths, paths_per_sample};
 use super::slices::{Pace, Slice, Slices};
-use super::variant::SceneConstants;
+use super::variant::{Needs, SceneConstants};
 use crate::{
     AccelReport, Buffer, Gpu, Pending, PipelineCache, SceneOnGpu, SceneOptions, Specialisation, Timer,
     Upload, VulkanError,
@@ -21,7 +21,7 @@ use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::{Crop, Film};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::{RenderSettings, View};
-use lumbre_scene::CompiledScene;
+use lumbre_scene::{CompiledScene, Part, SceneChanges};
 use lumbre_shaders as shaders;
 use lumbre_shaders::view::{Push, QueueHeads, ViewTable, queue};
 use std::collections::VecDeque;
@@ -43,8 +43,18 @@ pub struct VulkanBackend {
     constants: SceneConstants,
     tables: Buffer,
     cache: PipelineCache,
+    /// Why the scene cannot be drawn, after an update that failed.
+    failed: Option<VulkanError>,
     /// One render at a time.
     work: Mutex<Work>,
+}
+
+/// Pipelines for a choice of settings and what the scene has.
+#[derive(Clone)]
+struct Variant {
+    constants: Specialisation,
+    needs: Needs,
+    passes: Arc<Passes>,
 }
 
 /// What renders leave for the next.
@@ -52,7 +62,7 @@ struct Work {
     code: Code,
     #[cfg(feature = "shader-reload")]
     watched: super::code::Watched,
-    variants: Vec<(Specialisation, Arc<Passes>)>,
+    variants: Vec<Variant>,
     film: Option<FilmOnGpu>,
     paths: Option<Paths>,
     /// The solids around the last place of the camera.
@@ -115,6 +125,8 @@ struct Target {
 
 /// What all submissions of a render have in common.
 struct Shot {
+    /// What its pipelines are specialised for.
+    constants: Specialisation,
     passes: Arc<Passes>,
     push: Push,
     /// Steps of one submission, and whether paths cannot take more.
@@ -168,8 +180,36 @@ impl VulkanBackend {
             constants: SceneConstants::new(scene),
             tables,
             cache: PipelineCache::open(gpu),
+            failed: None,
             work: Mutex::new(Work::new()),
         })
+    }
+
+    /// Takes an edited scene, which differs from the present one in `changes`: what it then draws is what a new backend with the same
+    /// options would draw. What changed goes to the device; pipelines are made again only when the scene needs a feature that those there are
+    /// lack, and acceleration structures of meshes only where [`SceneOnGpu::update`] says so.
+    ///
+    /// # Errors
+    /// If memory is out or the device is lost. Nothing can be drawn then until another update succeeds.
+    pub fn update(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<(), VulkanError> {
+        // What a failure left is made anew.
+        let changes = if self.failed.is_some() { SceneChanges::all() } else { changes };
+        self.failed = self.take(scene, changes).err();
+        self.failed.clone().map_or(Ok(()), Err)
+    }
+
+    fn take(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<(), VulkanError> {
+        let work = self.work.get_mut().unwrap_or_else(PoisonError::into_inner);
+        if self.scene.update(scene, changes)? {
+            work.variants.clear();
+        }
+        let moved = changes.geometry() || changes.any(&[Part::Instances, Part::Transforms]);
+        if moved || changes.has(Part::Materials) {
+            self.solids.update(scene, moved);
+            work.media = None;
+        }
+        self.constants = SceneConstants::new(scene);
+        Ok(())
     }
 
     /// The device.
@@ -196,7 +236,7 @@ impl VulkanBackend {
     /// # Errors
     /// If the driver refuses a pipeline or memory is out.
     pub fn warm_up(&self, settings: &RenderSettings) -> Result<(), VulkanError> {
-        self.passes(&mut self.lock(), settings).map(drop)
+        self.variant(&mut self.lock(), settings).map(drop)
     }
 
     /// Adds the samples of a range to every pixel of `film`, the whole picture or a part of it. Stops within about a tenth of a second
@@ -391,9 +431,11 @@ impl VulkanBackend {
 
     /// Gets ready for so many samples of each pixel of a film: pipelines, view, room for paths.
     fn shot(&self, work: &mut Work, view: &View, target: &Target, samples: u64) -> Result<Shot, VulkanError> {
+        self.failed.clone().map_or(Ok(()), Err)?;
+        let Variant { constants, needs, passes } = self.variant(work, &view.settings)?;
         let paths = paths_per_sample(target.crop.size).saturating_mul(samples);
         let paths = paths.clamp(LEAST_PATHS, MOST_PATHS);
-        let solids = self.constants.needs.solids;
+        let solids = needs.solids;
         if work.paths.as_ref().is_none_or(|p| !p.suits(paths, solids)) {
             work.paths = None;
             work.paths = Some(self.room(paths.next_power_of_two(), solids)?);
@@ -419,9 +461,9 @@ impl VulkanBackend {
             group: 0,
         };
         let steps = max_depth(&view.settings) + 1;
-        let complete = steps <= MOST_STEPS && !self.constants.needs.catchers;
+        let complete = steps <= MOST_STEPS && !needs.catchers;
         let steps = if complete { steps } else { MOST_STEPS };
-        Ok(Shot { passes: self.passes(work, &view.settings)?, push, steps, complete, _view: table })
+        Ok(Shot { constants, passes, push, steps, complete, _view: table })
     }
 
     /// Room for so many paths, or for fewer where memory is short: slices are smaller then.
@@ -462,22 +504,29 @@ impl VulkanBackend {
     }
 
     /// The pipelines for these settings, made if there are none yet.
-    fn passes(&self, work: &mut Work, settings: &RenderSettings) -> Result<Arc<Passes>, VulkanError> {
+    fn variant(&self, work: &mut Work, settings: &RenderSettings) -> Result<Variant, VulkanError> {
         #[cfg(feature = "shader-reload")]
         if let Some(code) = work.watched.changed() {
             work.code = code;
             work.variants.clear();
         }
         let constants = self.constants.with(settings);
-        if let Some((_, passes)) = work.variants.iter().find(|(c, _)| *c == constants) {
-            return Ok(passes.clone());
+        // An edited scene may be served by those of an earlier one, which had more.
+        let exact = work.variants.iter().position(|v| v.constants == constants);
+        let found = exact
+            .or_else(|| work.variants.iter().position(|v| SceneConstants::serves(&v.constants, &constants)));
+        if let Some(found) = found {
+            // The longest unused goes first.
+            work.variants[..=found].rotate_right(1);
+            return Ok(work.variants[0].clone());
         }
-        let needs = (self.constants.needs, settings.light_sampling);
-        let passes = Arc::new(Passes::new(&self.scene, &work.code, &constants, needs, &self.cache)?);
+        let needs = self.constants.needs;
+        let light_sampling = settings.light_sampling;
+        let passes = Passes::new(&self.scene, &work.code, &constants, (needs, light_sampling), &self.cache)?;
         self.cache.save();
         work.variants.truncate(VARIANTS - 1);
-        work.variants.insert(0, (constants, passes.clone()));
-        Ok(passes)
+        work.variants.insert(0, Variant { constants, needs, passes: Arc::new(passes) });
+        Ok(work.variants[0].clone())
     }
 }
 

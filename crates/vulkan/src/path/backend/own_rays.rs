@@ -109,7 +109,7 @@ impl VulkanBackend {
             return Err(VulkanError::TooLarge { what: "paths".to_owned(), needed, limit });
         }
         let slice = Slice { first_pixel: [0, 0], size, samples: 0..1 };
-        let collector = Collector::new(self, view, &shot, needed as u32)?;
+        let collector = Collector::new(self, &shot, needed as u32)?;
         self.gpu.run("beginning paths", |commands| {
             shot.passes.record(commands, paths, &collector.timer, (&shot.of(&slice), true, 0, false));
             Ok(())
@@ -204,11 +204,15 @@ impl OwnRays {
 
 impl Collector {
     /// For lists of at most `most` paths.
-    fn new(backend: &VulkanBackend, view: &View, shot: &Shot, most: u32) -> Result<Self, VulkanError> {
-        let constants = backend.constants.with(&view.settings);
+    fn new(backend: &VulkanBackend, shot: &Shot, most: u32) -> Result<Self, VulkanError> {
         let push = size_of::<CollectPush>() as u32;
-        let pipeline =
-            ComputePipeline::of_scene(&backend.scene, replay::COLLECT, &constants, push, &backend.cache)?;
+        let pipeline = ComputePipeline::of_scene(
+            &backend.scene,
+            replay::COLLECT,
+            &shot.constants,
+            push,
+            &backend.cache,
+        )?;
         let buffers = |size: usize| -> Result<[Buffer; 2], VulkanError> {
             let new =
                 |purpose| Buffer::new(&backend.gpu, "collected rays", u64::from(most) * size as u64, purpose);
