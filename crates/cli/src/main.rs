@@ -17,6 +17,8 @@ mod merge;
 mod outputs;
 mod progress;
 mod render;
+#[cfg(feature = "viewer")]
+mod view;
 
 use clap::Parser;
 use exit::{Code, Failure};
@@ -42,6 +44,8 @@ fn main() -> ExitCode {
 fn run(command: Command, started: Instant) -> Result<Code, Failure> {
     match command {
         Command::Render(mut args) => render::run(&mut args),
+        #[cfg(feature = "viewer")]
+        Command::View(args) => view::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Devices(args) => devices::run(&args),
         Command::Bench(args) => bench::run(&args, started),

@@ -1,6 +1,7 @@
 //! The sRGB transfer curve (IEC 61966-2-1) and exposure.
 
-use crate::math::{exp, exp2, ln, pow};
+use crate::hash::{hash_combine, hash_u32, to_unit};
+use crate::math::{exp, exp2, ln, pow, sqr};
 use crate::rgb::Rgb;
 use std::sync::LazyLock;
 
@@ -30,6 +31,12 @@ pub fn srgb_decode_table() -> &'static [f32; 256] {
 #[inline]
 pub fn srgb_encode_u8(x: f32) -> u8 {
     (srgb_encode(x) * 255.0 + 0.5) as u8
+}
+
+/// A colour that tells things apart: linear, bright enough to be seen, chosen by a hash of a number.
+pub fn label(number: u32) -> Rgb {
+    let band = |i| 0.05 + 0.95 * sqr(to_unit(hash_combine(hash_u32(number), i)));
+    Rgb::new(band(0), band(1), band(2))
 }
 
 /// How a picture's radiance is scaled before it is shown.

@@ -45,6 +45,8 @@ pub struct RenderSettings {
     pub clamp: Option<f32>,
     /// What the camera sees of sky and sun, straight or through thin panes, is left out; alpha says where. They still give light.
     pub transparent_background: bool,
+    /// The film's plane of albedo holds a colour for each object ([`crate::color::label`] of its number) instead.
+    pub object_colors: bool,
 }
 
 impl RenderSettings {
@@ -66,6 +68,7 @@ impl Default for RenderSettings {
             shade_back_faces: false,
             clamp: None,
             transparent_background: false,
+            object_colors: false,
         }
     }
 }

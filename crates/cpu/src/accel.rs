@@ -4,22 +4,54 @@
 //! the leaves of a tree do not make its trunk ask for alpha), so that a scene of a hundred parts does
 //! not send each ray through a hundred trees with a transform each (what Embree's users do by putting all shapes into one scene).
 //! Meshes used more than once keep one structure each, shared by their instances.
+//!
+//! Where a scene is to be edited ([`CpuOptions::merge`]), each mesh keeps structures of its own ([`apart`]): moving it, hiding it or
+//! changing its materials leaves them as they are.
+
+mod apart;
 
 use crate::bvh::{Blas, Hit, InstanceDesc, SimdLevel, Tlas};
+use apart::Part;
 use glam::{Affine3A, Vec3};
 use lumbre_core::Ray;
-use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::geometry::{InstanceRecord, MeshRecord};
+use lumbre_scene::compiled::material::MaterialRecord;
+use lumbre_scene::{CompiledScene, SceneChanges};
 use rayon::prelude::*;
 use std::sync::Arc;
+
+/// How a scene is put into acceleration structures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CpuOptions {
+    /// Meshes that stand in the world once share structures. Rays are then faster, and what [`Accel::update`] has to do for a mesh that
+    /// moves is to build all anew.
+    pub merge: bool,
+}
+
+impl Default for CpuOptions {
+    fn default() -> Self {
+        CpuOptions { merge: true }
+    }
+}
 
 /// Acceleration structures of a scene.
 #[derive(Debug)]
 pub struct Accel {
+    options: CpuOptions,
     tlas: Tlas,
     /// The same, asked about every hit where back faces are invisible to the camera; `None` if there are none.
     camera_tlas: Option<Tlas>,
     /// Where the hits of each instance of `tlas` lie in the scene.
+    origins: Vec<Origin>,
+    /// The structures, where meshes are not merged.
+    parts: Vec<Part>,
+}
+
+/// Instances of the top level while they are collected.
+#[derive(Default)]
+struct Instances {
+    descs: Vec<InstanceDesc>,
+    classes: Vec<Class>,
     origins: Vec<Origin>,
 }
 
@@ -28,6 +60,8 @@ pub struct Accel {
 enum Origin {
     /// An instance of the scene.
     Instance(u32),
+    /// Some triangles of an instance of the scene.
+    Part(u32, Arc<[u32]>),
     /// Many: instance and triangle of each.
     Merged(Vec<[u32; 2]>),
 }
@@ -37,6 +71,9 @@ impl Origin {
     fn restore(&self, hit: &Hit) -> Hit {
         match self {
             Origin::Instance(instance) => Hit { instance: *instance, ..*hit },
+            Origin::Part(instance, triangles) => {
+                Hit { instance: *instance, triangle: triangles[hit.triangle as usize], ..*hit }
+            }
             Origin::Merged(triangles) => {
                 let [instance, triangle] = triangles[hit.triangle as usize];
                 Hit { instance, triangle, ..*hit }
@@ -46,7 +83,7 @@ impl Origin {
 }
 
 /// What any-hit work an instance needs: merged geometry must agree on it.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Class {
     opaque: bool,
     culls: bool,
@@ -64,57 +101,75 @@ impl Class {
         Class { opaque: mesh.opaque == 1, culls: mesh.culls == 1 }
     }
 
-    fn of_triangle(scene: &CompiledScene, triangle: usize) -> Self {
-        let material = &scene.materials[scene.triangle_materials[triangle] as usize];
+    fn of_material(material: &MaterialRecord) -> Self {
         Class { opaque: material.is_opaque(), culls: material.culls_back_faces() }
+    }
+
+    fn of_triangle(scene: &CompiledScene, triangle: usize) -> Self {
+        Class::of_material(&scene.materials[scene.triangle_materials[triangle] as usize])
     }
 }
 
 impl Accel {
     /// Builds the structures.
     pub fn new(scene: &CompiledScene) -> Self {
-        let mut uses = vec![0u32; scene.meshes.len()];
-        scene.instances.iter().for_each(|i| uses[i.mesh as usize] += 1);
-        let merges =
-            |i: &InstanceRecord| uses[i.mesh as usize] == 1 && i.transform_count == 1 && i.mask == u32::MAX;
+        Accel::with_options(scene, CpuOptions::default())
+    }
 
-        let (mut blas, mut instances, mut classes, mut origins) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let once: Vec<u32> =
-            (0..scene.instances.len() as u32).filter(|&i| merges(&scene.instances[i as usize])).collect();
-        for class in Class::ALL {
-            let (merged, triangles) = merge(scene, &once, class);
-            if !triangles.is_empty() {
-                instances.push(InstanceDesc::new(blas.len() as u32, Affine3A::IDENTITY));
-                classes.push(class);
-                origins.push(Origin::Merged(triangles));
-                blas.push(Arc::new(merged));
-            }
+    /// Builds the structures as `options` ask.
+    pub fn with_options(scene: &CompiledScene, options: CpuOptions) -> Self {
+        if options.merge {
+            let (instances, blas) = merged(scene);
+            return Accel::over(instances, blas, options);
         }
+        Accel::apart(scene, apart::parts(scene, &[]), options)
+    }
 
-        let first_shared = blas.len() as u32;
-        let shared: Vec<u32> = (0..scene.meshes.len() as u32).filter(|&m| uses[m as usize] > 1).collect();
-        blas.par_extend(shared.par_iter().map(|&m| Arc::new(build_mesh(scene, &scene.meshes[m as usize]))));
-        for (id, i) in scene.instances.iter().enumerate().filter(|(_, i)| !merges(i)) {
-            let place =
-                shared.binary_search(&i.mesh).expect("a mesh that is not merged is used more than once");
-            let object_to_world = scene.transforms[i.first_transform as usize].object_to_world();
-            let desc = InstanceDesc::new(first_shared + place as u32, object_to_world);
-            instances.push(InstanceDesc { mask: i.mask, ..desc });
-            classes.push(Class::of_mesh(&scene.meshes[i.mesh as usize]));
-            origins.push(Origin::Instance(id as u32));
-        }
+    /// Structures of parts, and the top level over them.
+    fn apart(scene: &CompiledScene, parts: Vec<Part>, options: CpuOptions) -> Self {
+        let (instances, blas) =
+            (apart::instances(scene, &parts), parts.iter().map(|p| p.blas.clone()).collect());
+        Accel { parts, ..Accel::over(instances, blas, options) }
+    }
 
+    /// The top level over structures.
+    fn over(
+        Instances { descs, classes, origins }: Instances,
+        blas: Vec<Arc<Blas>>,
+        options: CpuOptions,
+    ) -> Self {
         let tlas = |opaque: fn(&Class) -> bool| {
             let with = |(d, c): (&InstanceDesc, &Class)| InstanceDesc { opaque: opaque(c), ..*d };
-            Tlas::build(&instances.iter().zip(&classes).map(with).collect::<Vec<_>>(), blas.clone())
+            Tlas::build(&descs.iter().zip(&classes).map(with).collect::<Vec<_>>(), blas.clone())
         };
         let culls = classes.iter().any(|c| c.culls);
         Accel {
+            options,
             tlas: tlas(|c| c.opaque),
             camera_tlas: culls.then(|| tlas(|c| c.opaque && !c.culls)),
             origins,
+            parts: Vec::new(),
         }
+    }
+
+    /// Brings the structures of `before` up to date with `after`, which differs in `changes`: they are then those that would be built of
+    /// it. Where meshes are not merged, those that move or are hidden cost the top level only, and so do those that become opaque or
+    /// cease to be, unless other parts of them do not.
+    pub fn update(&mut self, before: &CompiledScene, after: &CompiledScene, changes: SceneChanges) {
+        let options = self.options;
+        let reclassed = classes(before).ne(classes(after));
+        let made = if changes.geometry() || ranges(before).ne(ranges(after)) {
+            Accel::with_options(after, options)
+        } else if !reclassed && !moved(before, after, changes) {
+            return;
+        } else if options.merge {
+            Accel::with_options(after, options)
+        } else {
+            let earlier = std::mem::take(&mut self.parts);
+            let parts = if reclassed { apart::parts(after, &earlier) } else { earlier };
+            Accel::apart(after, parts, options)
+        };
+        *self = made.with_level(self.level());
     }
 
     /// Traverses with `level` from now on; hits stay the same.
@@ -133,12 +188,21 @@ impl Accel {
     pub fn memory(&self) -> usize {
         let merged = |o: &Origin| match o {
             Origin::Instance(_) => 0,
+            // Shared by the instances of a mesh.
+            Origin::Part(..) => 0,
             Origin::Merged(triangles) => size_of_val(&triangles[..]),
         };
         let meshes: usize = self.tlas.blas().iter().map(|b| b.memory()).sum();
         let trunks = self.tlas.memory() + self.camera_tlas.as_ref().map_or(0, Tlas::memory);
         let origins = size_of_val(&self.origins[..]) + self.origins.iter().map(merged).sum::<usize>();
-        meshes + trunks + origins
+        let parts: usize =
+            self.parts.iter().filter_map(|p| p.triangles.as_ref()).map(|t| size_of_val(&t[..])).sum();
+        meshes + trunks + origins + parts
+    }
+
+    /// The structures under the top level.
+    pub fn structures(&self) -> &[Arc<Blas>] {
+        self.tlas.blas()
     }
 
     /// The SIMD level in use.
@@ -171,11 +235,76 @@ impl Accel {
     }
 }
 
-fn build_mesh(scene: &CompiledScene, m: &MeshRecord) -> Blas {
-    let (v, t) = (m.first_vertex as usize, m.first_triangle as usize);
+/// Where the triangles and vertices of each mesh lie.
+fn ranges(scene: &CompiledScene) -> impl Iterator<Item = [u32; 4]> {
+    scene.meshes.iter().map(|m| [m.first_triangle, m.triangle_count, m.first_vertex, m.vertex_count])
+}
+
+/// Whether instances stand elsewhere, or rays see others of them.
+fn moved(before: &CompiledScene, after: &CompiledScene, changes: SceneChanges) -> bool {
+    let place = |i: &InstanceRecord| [i.mesh, i.first_transform, i.transform_count, i.mask];
+    changes.has(lumbre_scene::Part::Transforms)
+        || before.instances.iter().map(place).ne(after.instances.iter().map(place))
+}
+
+/// Classes of all materials.
+fn classes(scene: &CompiledScene) -> impl Iterator<Item = Class> {
+    scene.materials.iter().map(Class::of_material)
+}
+
+/// Structures for the meshes that stand in the world once, together, and one for each of the others.
+fn merged(scene: &CompiledScene) -> (Instances, Vec<Arc<Blas>>) {
+    let mut uses = vec![0u32; scene.meshes.len()];
+    scene.instances.iter().for_each(|i| uses[i.mesh as usize] += 1);
+    let merges =
+        |i: &InstanceRecord| uses[i.mesh as usize] == 1 && i.transform_count == 1 && i.mask == u32::MAX;
+    let (once, others): (Vec<u32>, Vec<u32>) =
+        (0..scene.instances.len() as u32).partition(|&i| merges(&scene.instances[i as usize]));
+
+    let (mut blas, mut instances) = (Vec::new(), Instances::default());
+    for class in Class::ALL {
+        let (merged, triangles) = merge(scene, &once, class);
+        if !triangles.is_empty() {
+            instances.descs.push(InstanceDesc::new(blas.len() as u32, Affine3A::IDENTITY));
+            instances.classes.push(class);
+            instances.origins.push(Origin::Merged(triangles));
+            blas.push(Arc::new(merged));
+        }
+    }
+
+    let first = blas.len() as u32;
+    let mut shared: Vec<u32> = others.iter().map(|&i| scene.instances[i as usize].mesh).collect();
+    shared.sort_unstable();
+    shared.dedup();
+    blas.par_extend(shared.par_iter().map(|&m| {
+        let mesh = &scene.meshes[m as usize];
+        Arc::new(build_mesh(scene, mesh, 0..mesh.triangle_count))
+    }));
+    for id in others {
+        let mesh = scene.instances[id as usize].mesh;
+        let place = shared.binary_search(&mesh).expect("it is one of them");
+        instances.add(scene, id, first + place as u32);
+    }
+    (instances, blas)
+}
+
+impl Instances {
+    /// Adds an instance of the scene, over a structure of its mesh.
+    fn add(&mut self, scene: &CompiledScene, id: u32, blas: u32) {
+        let i = &scene.instances[id as usize];
+        let object_to_world = scene.transforms[i.first_transform as usize].object_to_world();
+        self.descs.push(InstanceDesc { mask: i.mask, ..InstanceDesc::new(blas, object_to_world) });
+        self.classes.push(Class::of_mesh(&scene.meshes[i.mesh as usize]));
+        self.origins.push(Origin::Instance(id));
+    }
+}
+
+/// A structure over some triangles of a mesh.
+fn build_mesh(scene: &CompiledScene, m: &MeshRecord, triangles: impl Iterator<Item = u32>) -> Blas {
+    let v = m.first_vertex as usize;
     let positions = &scene.positions[v..v + m.vertex_count as usize];
-    let triangles = &scene.triangles[t..t + m.triangle_count as usize];
-    let local: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|i| i - m.first_vertex)).collect();
+    let triangle = |t: u32| scene.triangles[(m.first_triangle + t) as usize].map(|i| i - m.first_vertex);
+    let local: Vec<[u32; 3]> = triangles.map(triangle).collect();
     Blas::build(bytemuck::cast_slice(positions), &local)
 }
 

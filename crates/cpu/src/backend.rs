@@ -1,7 +1,7 @@
 //! The CPU backend: prepares a scene, then renders ranges of samples into a film, tile by tile, on the rayon pool it is
 //! called from.
 
-use crate::accel::Accel;
+use crate::accel::{Accel, CpuOptions};
 use crate::bvh::{Hit, SimdLevel};
 use crate::interaction::{Interaction, material_of};
 use crate::observer::{PathObserver, RayCounter};
@@ -15,9 +15,9 @@ use lumbre_core::filter::Filter;
 use lumbre_core::medium::MediumStack;
 use lumbre_core::sampler::Sampler;
 use lumbre_core::settings::View;
-use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::material::flag;
 use lumbre_scene::compiled::surroundings::{Crossing, surroundings};
+use lumbre_scene::{CompiledScene, SceneChanges};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -36,8 +36,20 @@ pub struct CpuBackend {
 impl CpuBackend {
     /// Builds the acceleration structures.
     pub fn new(scene: CompiledScene) -> Self {
-        let accel = Accel::new(&scene);
+        CpuBackend::with_options(scene, CpuOptions::default())
+    }
+
+    /// Builds the acceleration structures as `options` ask.
+    pub fn with_options(scene: CompiledScene, options: CpuOptions) -> Self {
+        let accel = Accel::with_options(&scene, options);
         CpuBackend { scene, accel }
+    }
+
+    /// Takes an edited scene, which differs from the present one in `changes`; what it then draws is what a new backend with the same
+    /// options would draw.
+    pub fn update(&mut self, scene: CompiledScene, changes: SceneChanges) {
+        self.accel.update(&self.scene, &scene, changes);
+        self.scene = scene;
     }
 
     /// Traverses with `level` from now on; the picture stays the same.

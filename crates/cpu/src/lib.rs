@@ -17,4 +17,5 @@ pub mod shadow;
 pub mod surface;
 pub mod tracer;
 
+pub use accel::CpuOptions;
 pub use backend::CpuBackend;

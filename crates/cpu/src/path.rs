@@ -11,6 +11,7 @@ use crate::surface::{Hue, Surface, emission, index_at};
 use crate::tracer::{CoverageKey, Tracer};
 use glam::Vec3;
 use lumbre_core::bsdf::{BsdfSample, Lobe, TransportMode};
+use lumbre_core::color::label;
 use lumbre_core::film::{FilmSample, FirstHit};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::mis::power_heuristic;
@@ -174,7 +175,10 @@ impl<O: PathObserver> Path<'_, '_, O> {
             }
             self.observer.event(PathEvent::Hit { it: &it, ns: surface.frame.n, beta: self.beta });
             if self.depth == 0 {
-                first_hit = Some(first_hit_planes(&it, &surface, self.travelled));
+                let planes = first_hit_planes(&it, &surface, self.travelled);
+                let albedo =
+                    if self.tracer.settings.object_colors { label(it.instance) } else { planes.albedo };
+                first_hit = Some(FirstHit { albedo, ..planes });
             }
             // Add what it emits.
             if self.add_emission(&it, &surface) {

@@ -147,7 +147,8 @@ impl IoError {
         }
     }
 
-    pub(crate) fn write(path: &Path, reason: impl fmt::Display) -> Self {
+    /// A file that cannot be written, and why.
+    pub fn write(path: &Path, reason: impl fmt::Display) -> Self {
         IoError::Write { path: path.into(), reason: one_line(&reason.to_string()) }
     }
 

@@ -5,7 +5,7 @@ use crate::IoError;
 use crate::limits::Room;
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Reads a regular file of at most so many bytes. Pipes and devices are refused: opening one may block for ever.
@@ -32,6 +32,24 @@ pub(crate) fn read_file(path: &Path, limit: impl Into<Room>) -> Result<Vec<u8>, 
     file.take(limit.left().saturating_add(1)).read_to_end(&mut bytes).map_err(open)?;
     limit.check(path, "", bytes.len() as u64)?;
     Ok(bytes)
+}
+
+/// Reads a text of at most so many bytes.
+///
+/// # Errors
+/// `CannotOpen`; `BadData` if it is longer, or no UTF-8.
+pub fn read_text(path: impl AsRef<Path>, most: u64) -> Result<String, IoError> {
+    let path = path.as_ref();
+    let bytes = read_file(path, most)?;
+    String::from_utf8(bytes).map_err(|e| IoError::data(path, "", format!("no text: {}", e.utf8_error())))
+}
+
+/// Writes a text in one step: no reader sees half of it, and if it fails, an older file is as it was.
+///
+/// # Errors
+/// `CannotWrite`.
+pub fn write_text(path: impl AsRef<Path>, text: &str) -> Result<(), IoError> {
+    write_atomic(path.as_ref(), |file| file.write_all(text.as_bytes()).map_err(|e| e.to_string()))
 }
 
 /// Writes a file through `fill` in one step: temporary file in the same folder, flush to disk, rename. When anything
@@ -157,7 +175,6 @@ fn sync_folder(folder: &Path) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Write;
 
     fn names(dir: &Path) -> Vec<String> {
         let mut v: Vec<_> =

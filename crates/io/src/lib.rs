@@ -21,7 +21,7 @@ mod warnings;
 
 pub use describe::{Description, UsedExtension, describe_scene};
 pub use error::{ErrorKind, IoError, one_line};
-pub use files::check_writable;
+pub use files::{check_writable, read_text, write_text};
 pub use gltf::{GLTF_EXTENSIONS, GltfExtension, Support};
 pub use guard::decoder_is_running;
 pub use image::exr::{ExrImage, ExrLayer, ExrWindow, write_exr};

@@ -76,6 +76,8 @@ pub struct CameraOptions {
     pub look_from: Option<Vec3>,
     /// Point in the centre of the picture; replaces the camera's direction.
     pub look_at: Option<Vec3>,
+    /// What is up in the picture; `None`: +y, or as the scene's camera is turned where nothing else turns it.
+    pub up: Option<Vec3>,
     /// Vertical field of view, radians. It makes an orthographic camera a perspective one.
     pub fov: Option<f32>,
     /// How far the lens is open; `None`: as the scene says, which is closed for all formats that are read.
@@ -215,12 +217,12 @@ fn from_scene(p: &Placed<'_>, fov: Option<f32>, aspect: f32) -> Camera {
 
 /// Moves and turns a camera as the caller asked.
 fn aimed(base: Camera, options: &CameraOptions) -> Camera {
-    if options.look_from.is_none() && options.look_at.is_none() {
+    if options.look_from.is_none() && options.look_at.is_none() && options.up.is_none() {
         return base;
     }
     let eye = options.look_from.unwrap_or(base.origin);
     let target = options.look_at.unwrap_or(eye + base.forward);
-    let turned = Camera::look_at(eye, target, Vec3::Y, 1.0, base.aspect);
+    let turned = Camera::look_at(eye, target, options.up.unwrap_or(Vec3::Y), 1.0, base.aspect);
     Camera {
         projection: base.projection,
         lens_radius: base.lens_radius,

@@ -92,6 +92,7 @@ mod tests {
     use lumbre_core::Camera;
     use lumbre_core::settings::RenderSettings;
     use lumbre_scene::{Scene, compile};
+    use std::sync::Arc;
 
     #[test]
     fn text_and_back() {
@@ -113,9 +114,9 @@ mod tests {
         let base = of(&scene, &view, [8, 6], crop);
         assert_eq!(of(&scene.clone(), &view.clone(), [8, 6], crop), base);
         let mut lit = scene.clone();
-        lit.environment_pixels[0].g += 1e-6;
+        Arc::make_mut(&mut lit.environment_pixels)[0].g += 1e-6;
         let mut longer = scene.clone();
-        longer.texels.push(0);
+        longer.texels = longer.texels.iter().copied().chain([0]).collect();
         let mut seeded = view.clone();
         seeded.settings.seed = 1;
         let mut moved = view.clone();

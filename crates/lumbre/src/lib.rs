@@ -2,7 +2,7 @@
 //! film, read the film.
 //!
 //! It never prints, exits, installs a logger or panics on what it is given, but where a function says
-//! so under "Panics"; its types are `Send` and `Sync`. It needs Rust 1.90.
+//! so under "Panics"; its types are `Send` and `Sync`. It needs Rust 1.95.
 //!
 //! # A picture without any file
 //!
@@ -44,22 +44,27 @@ pub mod backend;
 pub mod camera;
 pub mod cancel;
 pub mod compare;
+#[cfg(feature = "files")]
+pub mod edits;
 pub mod estimate;
 #[cfg(feature = "files")]
 pub mod fingerprint;
 #[cfg(feature = "files")]
 pub mod info;
 pub mod light;
+pub mod look;
 #[cfg(feature = "files")]
 pub mod merge;
 #[cfg(feature = "files")]
 pub mod output;
 pub mod render;
+pub mod session;
 pub mod targets;
 
 pub use backend::{
-    AccelReport, Backend, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback, Frames, GpuChoice,
-    GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices, prepare, prepare_cpu,
+    AccelReport, Backend, Canvas, Developed, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback,
+    Frames, GpuChoice, GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices, prepare,
+    prepare_cpu, prepare_cpu_with,
 };
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,
@@ -69,6 +74,7 @@ pub use estimate::Estimator;
 #[cfg(feature = "files")]
 pub use info::{Hint, HintKind, InfoError, SceneInfo, info};
 pub use light::{LightKinds, light_kinds};
+pub use look::Look;
 #[cfg(feature = "files")]
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
 pub use lumbre_scene::{CompileError, Compiled, compile};
@@ -85,9 +91,7 @@ pub use lumbre_scene as scene;
 
 /// What most programs need.
 pub mod prelude {
-    #[cfg(feature = "files")]
-    pub use crate::output::Look;
-    pub use crate::{Backend, CameraChoice, CameraOptions, CancelToken, Device, Outcome, Targets};
+    pub use crate::{Backend, CameraChoice, CameraOptions, CancelToken, Device, Look, Outcome, Targets};
     pub use lumbre_core::color::Exposure;
     pub use lumbre_core::control::{Control, Progress};
     pub use lumbre_core::settings::{RenderSettings, View};

@@ -3,7 +3,8 @@
 use lumbre_core::Rgb;
 use lumbre_scene::{Background, Environment, LightId, Material, MeshId, Scene};
 
-/// Which kinds of light a scene has. Of surfaces and punctual lights those count that a root reaches.
+/// Which kinds of light a scene has. Of surfaces and punctual lights those count that a root reaches and that are not
+/// hidden.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightKinds {
     /// A background that is not black, or a sun.
@@ -31,8 +32,8 @@ impl LightKinds {
 /// Finds the kinds of light of a scene.
 pub fn light_kinds(scene: &Scene) -> LightKinds {
     let mut kinds = LightKinds { distant: environment_shines(&scene.environment), ..LightKinds::default() };
-    for (id, _) in scene.world_nodes() {
-        let node = &scene.nodes[id.index()];
+    for placed in scene.placed_nodes().into_iter().filter(|n| n.visible) {
+        let node = &scene.nodes[placed.id.index()];
         kinds.punctual |= node.light.is_some_and(|l| light_shines(scene, l));
         for material in node.mesh.into_iter().flat_map(|m| materials(scene, m)) {
             kinds.unlit |= material.unlit;
@@ -97,6 +98,8 @@ mod tests {
         assert!(!has_light(&scene), "no root reaches the node");
         scene.add_root(node);
         assert_eq!(light_kinds(&scene), LightKinds { punctual: true, ..LightKinds::default() });
+        scene.nodes[1].visible = false;
+        assert!(!has_light(&scene), "it is hidden");
     }
 
     #[test]

@@ -1,138 +1,22 @@
 //! From a film to pictures: what a display is sent, and the layers of an EXR.
 
+pub use crate::look::Look;
+use crate::look::Negative;
 use lumbre_core::color::Exposure;
 use lumbre_core::film::{Film, PixelSums};
 use lumbre_core::rgb::Rgb;
-use lumbre_core::tone::{ToneCurve, aberration_shrinks, vignette};
 pub use lumbre_io::{DisplayImage, Picture};
-use lumbre_io::{ExrImage, ExrLayer, ExrWindow, LinearImage};
-use rayon::prelude::*;
-
-/// How a film is developed for a display: lens, exposure, tone curve.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Look {
-    /// Brightness.
-    pub exposure: Exposure,
-    /// Tone curve.
-    pub tone: ToneCurve,
-    /// Darkening towards the corners, which keep 1 - this of their light: 0 (none) to 1 ([`vignette`]).
-    pub vignette: f32,
-    /// Red is enlarged about the centre by this many per cent and blue made smaller by as much: 0 is none, negative the other
-    /// way round, at most [`Look::MAX_ABERRATION`] either way.
-    pub aberration: f32,
-    /// The picture has alpha: that of the film.
-    pub transparent: bool,
-}
-
-impl Look {
-    /// Most of [`Look::aberration`], per cent.
-    pub const MAX_ABERRATION: f32 = lumbre_core::tone::MAX_ABERRATION;
-
-    /// The factor of its exposure on this film. The lens does not change it.
-    pub fn exposure_factor(&self, film: &Film) -> f32 {
-        self.exposure.factor(&film.radiance(), film.width() as usize)
-    }
-}
+use lumbre_io::{ExrImage, ExrLayer, ExrWindow, IoError, LinearImage};
+use std::path::Path;
 
 /// 8 bits a band for a display: lens, exposure and tone curve. With alpha, colours are those of what is there, not multiplied
 /// by alpha (PNG's way); without, what is there stands before black. The lens is that of the whole picture, also where the
 /// film is a part of it; at the edge of a part, aberration takes the part's last pixels for what lies beyond.
 pub fn develop(film: &Film, look: &Look) -> DisplayImage {
-    let radiance = film.radiance();
-    let factor = look.exposure.factor(&radiance, film.width() as usize);
-    let lens = Lens::new(film, &radiance, look);
+    let negative = Negative::new(film, look.transparent);
     let channels = if look.transparent { 4 } else { 3 };
-    let mut bytes = vec![0; radiance.len() * channels];
-    bytes.par_chunks_exact_mut(channels).enumerate().for_each(|(i, pixel)| {
-        let mut color = lens.color(i) * factor;
-        if let [_, _, _, shown] = pixel {
-            let alpha = lens.alpha(i);
-            *shown = code(alpha);
-            color = if alpha > 0.0 { color / alpha } else { Rgb::BLACK };
-        }
-        let color = look.tone.display(color).to_array();
-        pixel.iter_mut().zip(color).for_each(|(p, v)| *p = code(v));
-    });
+    let bytes = negative.develop(look, negative.exposure_factor(look), channels);
     DisplayImage { width: film.width(), height: film.height(), has_alpha: look.transparent, bytes }
-}
-
-/// 0..1 as 8 bits.
-fn code(x: f32) -> u8 {
-    (x * 255.0 + 0.5) as u8
-}
-
-/// A film seen through vignette and chromatic aberration.
-struct Lens<'a> {
-    film: &'a Film,
-    radiance: &'a [Rgb],
-    vignette: f32,
-    /// `None`: no aberration, pixels are as they are.
-    shrinks: Option<[f32; 3]>,
-    /// From the film's top left corner to the centre of the picture, pixels.
-    center: [f32; 2],
-    half_diagonal: f32,
-}
-
-impl<'a> Lens<'a> {
-    fn new(film: &'a Film, radiance: &'a [Rgb], look: &Look) -> Self {
-        let (size, origin) = (film.picture_size().map(|n| n as f32), film.origin().map(|n| n as f32));
-        let aberration = look.aberration.clamp(-Look::MAX_ABERRATION, Look::MAX_ABERRATION);
-        Lens {
-            film,
-            radiance,
-            vignette: look.vignette.clamp(0.0, 1.0),
-            shrinks: (aberration != 0.0).then(|| aberration_shrinks(aberration)),
-            center: [0, 1].map(|i| 0.5 * size[i] - origin[i]),
-            half_diagonal: 0.5 * (size[0] * size[0] + size[1] * size[1]).sqrt(),
-        }
-    }
-
-    /// From the centre of the picture to that of a pixel.
-    fn offset(&self, i: usize) -> [f32; 2] {
-        let width = self.film.width() as usize;
-        [(i % width) as f32 + 0.5 - self.center[0], (i / width) as f32 + 0.5 - self.center[1]]
-    }
-
-    fn color(&self, i: usize) -> Rgb {
-        let offset = self.offset(i);
-        let color = match self.shrinks {
-            None => self.radiance[i],
-            Some(shrinks) => {
-                let band = |c: usize| self.bilinear(offset, shrinks[c], |i| self.radiance[i][c]);
-                Rgb::new(band(0), band(1), band(2))
-            }
-        };
-        if self.vignette == 0.0 {
-            return color;
-        }
-        color * vignette(self.vignette, offset.map(|v| v / self.half_diagonal))
-    }
-
-    /// The most that any band has of it, so that fringes are not cut off.
-    fn alpha(&self, i: usize) -> f32 {
-        let alpha = |i: usize| self.film.pixels()[i].alpha();
-        match self.shrinks {
-            None => alpha(i),
-            Some(shrinks) => {
-                shrinks.map(|s| self.bilinear(self.offset(i), s, alpha)).into_iter().fold(0.0, f32::max)
-            }
-        }
-    }
-
-    /// What an enlargement about the centre brings to a place.
-    fn bilinear(&self, offset: [f32; 2], shrink: f32, value: impl Fn(usize) -> f32) -> f32 {
-        let size = [self.film.width(), self.film.height()];
-        // In units of pixels, the centre of the first one at 0.
-        let at = [0, 1].map(|k| {
-            let x = offset[k] * shrink + self.center[k] - 0.5;
-            x.clamp(0.0, (size[k] - 1) as f32)
-        });
-        let [low, high] = [at.map(|x| x as u32), [0, 1].map(|k| (at[k] as u32 + 1).min(size[k] - 1))];
-        let [u, v] = [0, 1].map(|k| at[k] - low[k] as f32);
-        let pixel = |x: u32, y: u32| value(y as usize * size[0] as usize + x as usize);
-        let row = |y: u32| pixel(low[0], y) * (1.0 - u) + pixel(high[0], y) * u;
-        row(low[1]) * (1.0 - v) + row(high[1]) * v
-    }
 }
 
 /// 8-bit sRGB, three bytes a pixel, row 0 on top: exposure, then the sRGB curve.
@@ -178,6 +62,26 @@ pub fn to_exr(film: &Film, transparent: bool, metadata: Vec<(String, String)>) -
     }
 }
 
+/// Writes a film to a file in the format of its ending: PNG or JPEG developed by the look, EXR with every plane, HDR as it is.
+///
+/// # Errors
+/// If the ending is none of these, or the file cannot be written.
+pub fn save(film: &Film, look: &Look, path: &Path) -> Result<(), IoError> {
+    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    match ending.as_str() {
+        "png" => Picture::Png(&develop(film, look)).write(path),
+        "jpg" | "jpeg" => {
+            Picture::Jpeg(&develop(film, &Look { transparent: false, ..*look }), QUALITY).write(path)
+        }
+        "exr" => Picture::Exr(to_exr(film, look.transparent, Vec::new())).write(path),
+        "hdr" => Picture::Hdr(&to_linear(film)).write(path),
+        _ => Err(IoError::write(path, "its ending is not one of .png, .jpg, .jpeg, .exr, .hdr")),
+    }
+}
+
+/// Quality of a JPEG where none is asked for.
+pub const QUALITY: u8 = 92;
+
 /// Whether samples were taken and none of them brought any light.
 pub fn is_black(film: &Film) -> bool {
     let taken = film.pixels().iter().any(|p| p.samples() > 0);
@@ -188,6 +92,7 @@ pub fn is_black(film: &Film) -> bool {
 mod tests {
     use super::*;
     use lumbre_core::film::{Crop, FilmSample};
+    use lumbre_core::tone::ToneCurve;
 
     /// One sample a pixel.
     fn film(picture: [u32; 2], crop: Crop, sample: impl Fn([u32; 2]) -> (Rgb, f32)) -> Film {

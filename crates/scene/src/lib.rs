@@ -18,7 +18,8 @@ pub use authored::material::{
 };
 pub use authored::mesh::{Mesh, Primitive};
 pub use authored::node::Node;
-pub use authored::scene::Scene;
+pub use authored::scene::{PlacedNode, Scene};
 pub use authored::texture::{Filter, Image, Texture, Wrap};
-pub use compile::{CompileError, Compiled, compile};
+pub use compile::{CompileError, Compiled, compile, recompile};
 pub use compiled::CompiledScene;
+pub use compiled::changes::{Part, SceneChanges};

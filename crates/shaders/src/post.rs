@@ -26,6 +26,8 @@ pub const STATE_BYTES: u64 = 8;
 pub struct PostLook {
     /// Brightness.
     pub exposure: Exposure,
+    /// Factor on an exposure that follows the picture; 1 for none.
+    pub offset: f32,
     /// How far it goes from the last frame's to this one's, 0 to 1 (`lumbre_core::color::ease_share`); 1 for a single picture.
     pub ease: f32,
     /// Tone curve.
@@ -71,7 +73,7 @@ pub struct PostPush {
     pub block_count: [u32; 2],
     /// One of [`exposure`].
     pub exposure: u32,
-    /// The factor of [`exposure::FACTOR`].
+    /// The factor of [`exposure::FACTOR`]; on the others, a factor on what they find.
     pub factor: f32,
     /// [`PostLook::ease`].
     pub ease: f32,
@@ -97,8 +99,8 @@ impl PostPush {
         let (size, origin) = (picture.map(|n| n as f32), crop.origin.map(|n| n as f32));
         let side = block_side(crop.size[0] as usize) as u32;
         let (exposure, factor) = match look.exposure {
-            Exposure::Auto => (exposure::AUTO, 1.0),
-            Exposure::Thesis => (exposure::THESIS, 1.0),
+            Exposure::Auto => (exposure::AUTO, look.offset),
+            Exposure::Thesis => (exposure::THESIS, look.offset),
             // The factor does not depend on the picture.
             ev @ Exposure::Ev(_) => (exposure::FACTOR, ev.factor(&[], 1)),
         };

@@ -85,6 +85,10 @@ pub struct ViewTable {
     pub clamp_to: f32,
     /// The filter: `FilterKind` in its order.
     pub filter_kind: u32,
+    /// 1: the plane of albedo holds a colour for each object.
+    pub object_colors: u32,
+    /// Always 0: what alignment leaves over.
+    pub unused: u32,
     /// The camera.
     pub camera: CameraRecord,
     /// The media around it.

@@ -5,6 +5,7 @@ pub mod aniso_tables;
 pub mod bsdf_rows;
 pub mod bsdf_tables;
 pub mod calibration;
+pub mod changing;
 pub mod chi_square;
 pub mod convergence;
 pub mod furnace;

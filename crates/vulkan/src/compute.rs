@@ -10,6 +10,7 @@ use crate::pipeline::{Layout, ShaderModule};
 use crate::scene::SceneOnGpu;
 use crate::specialisation::Specialisation;
 use ash::vk;
+use std::sync::Arc;
 
 /// A compute pipeline.
 pub(crate) struct ComputePipeline {
@@ -17,7 +18,7 @@ pub(crate) struct ComputePipeline {
     raw: vk::Pipeline,
     layout: Layout,
     /// Of a scene, where the shader reads textures.
-    descriptors: Option<Descriptors>,
+    descriptors: Option<Arc<Descriptors>>,
 }
 
 impl ComputePipeline {
@@ -46,7 +47,7 @@ impl ComputePipeline {
         push_size: u32,
         cache: &PipelineCache,
     ) -> Result<Self, VulkanError> {
-        let descriptors = Descriptors::new(scene)?;
+        let descriptors = scene.descriptors.clone();
         let layout = Layout::new(scene.gpu(), &[descriptors.layout], STAGES, push_size)?;
         Self::with(scene.gpu(), spirv, constants, (layout, Some(descriptors)), cache.raw())
     }
@@ -55,7 +56,7 @@ impl ComputePipeline {
         gpu: &Gpu,
         spirv: &[u8],
         constants: &Specialisation,
-        (layout, descriptors): (Layout, Option<Descriptors>),
+        (layout, descriptors): (Layout, Option<Arc<Descriptors>>),
         cache: vk::PipelineCache,
     ) -> Result<Self, VulkanError> {
         let module = ShaderModule::new(gpu, spirv)?;

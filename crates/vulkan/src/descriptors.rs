@@ -2,11 +2,10 @@
 
 use crate::error::{Called, VulkanError};
 use crate::gpu::Gpu;
-use crate::scene::SceneOnGpu;
 use ash::vk;
 use lumbre_shaders::layout::binding;
 
-/// Layout and set for a scene, which must live as long.
+/// Layout and set for a scene. Its pipelines share them, so that they need not be made anew when the top-level structure is.
 pub(crate) struct Descriptors {
     gpu: Gpu,
     pub(crate) layout: vk::DescriptorSetLayout,
@@ -24,18 +23,23 @@ pub(crate) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
 );
 
 impl Descriptors {
-    pub(crate) fn new(scene: &SceneOnGpu) -> Result<Self, VulkanError> {
-        let gpu = scene.gpu().clone();
+    /// For this structure and these textures, which must live as long as what reads them runs.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        top: vk::AccelerationStructureKHR,
+        views: &[vk::ImageView],
+    ) -> Result<Self, VulkanError> {
         // An array has one element at least, bound or not.
-        let textures = scene.textures.views.len().max(1) as u32;
+        let textures = views.len().max(1) as u32;
         let mut descriptors = Descriptors {
             layout: vk::DescriptorSetLayout::null(),
             pool: vk::DescriptorPool::null(),
             set: vk::DescriptorSet::null(),
-            gpu,
+            gpu: gpu.clone(),
         };
         descriptors.make(textures)?;
-        descriptors.write(scene);
+        descriptors.write_top(top);
+        descriptors.write_textures(views);
         Ok(descriptors)
     }
 
@@ -89,28 +93,35 @@ impl Descriptors {
         Ok(())
     }
 
-    fn write(&self, scene: &SceneOnGpu) {
-        let structures = [scene.accel.top.raw];
+    fn slot(&self, binding: u32) -> vk::WriteDescriptorSet<'_> {
+        vk::WriteDescriptorSet::default().dst_set(self.set).dst_binding(binding)
+    }
+
+    /// Puts a top-level structure there. Nothing that reads the set may be under way.
+    pub(crate) fn write_top(&self, top: vk::AccelerationStructureKHR) {
+        let structures = [top];
         let mut top =
             vk::WriteDescriptorSetAccelerationStructureKHR::default().acceleration_structures(&structures);
-        let image = |&view: &vk::ImageView| {
-            vk::DescriptorImageInfo::default()
-                .image_view(view)
-                .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
-        };
-        let images: Vec<_> = scene.textures.views.iter().map(image).collect();
-        let write = |binding| vk::WriteDescriptorSet::default().dst_set(self.set).dst_binding(binding);
-        let structure = write(binding::TLAS)
+        let write = self
+            .slot(binding::TLAS)
             .descriptor_type(vk::DescriptorType::ACCELERATION_STRUCTURE_KHR)
             .descriptor_count(1)
             .push_next(&mut top);
-        let mut writes = vec![structure];
-        if !images.is_empty() {
-            let kind = vk::DescriptorType::SAMPLED_IMAGE;
-            writes.push(write(binding::TEXTURES).descriptor_type(kind).image_info(&images));
+        // SAFETY: nothing reads the set; the structure lives as long as the scene, or until another takes its place.
+        unsafe { self.gpu.0.raw.update_descriptor_sets(&[write], &[]) };
+    }
+
+    fn write_textures(&self, views: &[vk::ImageView]) {
+        if views.is_empty() {
+            return;
         }
+        let layout = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+        let image = |&view| vk::DescriptorImageInfo::default().image_view(view).image_layout(layout);
+        let images: Vec<_> = views.iter().map(image).collect();
+        let kind = vk::DescriptorType::SAMPLED_IMAGE;
+        let write = self.slot(binding::TEXTURES).descriptor_type(kind).image_info(&images);
         // SAFETY: the set is new; what is written lives as long as the scene.
-        unsafe { self.gpu.0.raw.update_descriptor_sets(&writes, &[]) };
+        unsafe { self.gpu.0.raw.update_descriptor_sets(&[write], &[]) };
     }
 }
 

@@ -43,6 +43,23 @@ impl Post {
         Ok(post)
     }
 
+    /// For films of another size from now on. The exposure is kept.
+    ///
+    /// # Errors
+    /// If memory is out.
+    pub fn resize(&mut self, gpu: &Gpu, size: [u32; 2]) -> Result<(), VulkanError> {
+        let fit = |buffer: &mut Buffer, name, bytes: u64| -> Result<(), VulkanError> {
+            if buffer.size() < bytes {
+                *buffer = Buffer::new(gpu, name, bytes, Purpose::Data)?;
+            }
+            Ok(())
+        };
+        fit(&mut self.blocks, "luminance of blocks", PostPush::block_bytes(size))?;
+        fit(&mut self.display, "display", 4 * u64::from(size[0]) * u64::from(size[1]))?;
+        self.size = size;
+        Ok(())
+    }
+
     /// Exposure begins anew with the next frame, without easing from the last.
     pub fn forget(&self, commands: &Commands<'_>) {
         commands.fill(&self.state, 0);

@@ -13,6 +13,7 @@ use crate::specialisation::Specialisation;
 use crate::statistics::{self, ShaderStatistics};
 use ash::vk;
 use lumbre_shaders::layout::{HitClass, RAY_KINDS};
+use std::sync::Arc;
 
 /// SPIR-V of the shaders of a hit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,7 +40,7 @@ pub struct RayPipeline {
     gpu: Gpu,
     raw: vk::Pipeline,
     layout: Layout,
-    descriptors: Descriptors,
+    descriptors: Arc<Descriptors>,
     table: BindingTable,
 }
 
@@ -113,7 +114,7 @@ impl RayPipeline {
         cache: &PipelineCache,
     ) -> Result<Self, VulkanError> {
         let gpu = scene.gpu();
-        let descriptors = Descriptors::new(scene)?;
+        let descriptors = scene.descriptors.clone();
         let layout = Layout::new(gpu, &[descriptors.layout], STAGES, push_size)?;
         let mut stages = Stages { gpu, code: Vec::new(), modules: Vec::new() };
         let groups = groups(&mut stages, shaders)?;

@@ -36,6 +36,15 @@ impl Specialisation {
         self.uint(id, value.to_bits())
     }
 
+    /// Whether it has the same constants, and every value is the same or, where `optional` says so of the constant, that of a feature that
+    /// is there without being asked for.
+    pub(crate) fn covers(&self, asked: &Specialisation, optional: impl Fn(u32) -> bool) -> bool {
+        let serves = |((id, has), (asked_id, asks)): (&(u32, u32), &(u32, u32))| {
+            id == asked_id && (has == asks || (*has == 1 && *asks == 0 && optional(*id)))
+        };
+        self.entries.len() == asked.entries.len() && self.entries.iter().zip(&asked.entries).all(serves)
+    }
+
     pub(crate) fn table(&self) -> Table {
         let entry = |(i, (id, _)): (usize, &(u32, u32))| {
             vk::SpecializationMapEntry::default().constant_id(*id).offset(4 * i as u32).size(4)

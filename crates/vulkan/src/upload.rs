@@ -97,4 +97,22 @@ impl Buffer {
         upload.write(&buffer, 0, content)?;
         Ok(buffer)
     }
+
+    /// Gives it this content, in its place if there is room, else in a new one with some to spare. What is left of the old content behind
+    /// the new one stays.
+    ///
+    /// # Errors
+    /// If memory is out or the device is lost.
+    pub(crate) fn refill(
+        &mut self,
+        upload: &mut Upload,
+        name: &str,
+        content: &[u8],
+    ) -> Result<(), VulkanError> {
+        let size = content.len() as u64;
+        if size > self.size() {
+            *self = Buffer::new(&upload.gpu, name, size + size / 4, Purpose::Data)?;
+        }
+        upload.write(self, 0, content)
+    }
 }

@@ -50,10 +50,17 @@ pub(super) fn platform_float_functions(source: &Source) -> Vec<Finding> {
 /// Crates that may open files.
 const FILE_CRATES: &[&str] = &["io", "cli", "testkit", "xtask"];
 
-/// Files elsewhere that may, too: the cache of pipelines, what the compiler of shaders and a test share, and, with the feature
-/// `shader-reload` for those who change shaders, what is read again when it changes.
-const FILE_PLACES: &[&str] =
-    &["crates/vulkan/src/cache.rs", "crates/vulkan/src/path/code.rs", "crates/shaders/src/sources.rs"];
+/// Files elsewhere that may, too: the cache of pipelines, what the compiler of shaders and a test share, with the feature
+/// `shader-reload` for those who change shaders what is read again when it changes, and of the window its file dialog, its list of
+/// recent files and its look at a file's time.
+const FILE_PLACES: &[&str] = &[
+    "crates/vulkan/src/cache.rs",
+    "crates/vulkan/src/path/code.rs",
+    "crates/shaders/src/sources.rs",
+    "crates/viewer/src/folder.rs",
+    "crates/viewer/src/recent.rs",
+    "crates/viewer/src/watch.rs",
+];
 
 /// Files are opened in `io`, and by programs and tests.
 pub(super) fn file_access(source: &Source) -> Vec<Finding> {

@@ -70,6 +70,7 @@ impl CameraArgs {
             choice: self.camera.clone().unwrap_or_default(),
             look_from: self.look_from,
             look_at: self.look_at,
+            up: None,
             fov: self.fov.map(f32::to_radians),
             aperture: self.aperture,
             focus: self.focus.unwrap_or_default(),

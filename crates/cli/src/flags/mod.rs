@@ -17,6 +17,8 @@ pub(crate) mod run;
 pub(crate) mod sampling;
 pub(crate) mod targets;
 pub(crate) mod values;
+#[cfg(feature = "viewer")]
+pub(crate) mod view;
 
 use clap::{Parser, Subcommand};
 
@@ -34,6 +36,7 @@ Examples:
   lumbre render scene.glb
       until the picture is good, into scene.png
   lumbre render scene.gltf -o picture.exr --spp 256 --sky gradient --sun 50,120
+  lumbre view scene.glb
   lumbre info scene.glb
   lumbre compare reference.exr picture.exr
   lumbre merge picture.exr part-1.exr part-2.exr
@@ -46,6 +49,10 @@ pub(crate) enum Command {
     /// Render a scene to a picture.
     #[command(after_help = render::EXAMPLES)]
     Render(Box<render::RenderArgs>),
+    /// Look at a scene in a window, walk through it and change it.
+    #[cfg(feature = "viewer")]
+    #[command(after_help = view::EXAMPLES)]
+    View(Box<view::ViewArgs>),
     /// Say what a scene holds, what it takes, and why its picture might be black.
     #[command(after_help = info::EXAMPLES)]
     Info(Box<info::InfoArgs>),

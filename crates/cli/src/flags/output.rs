@@ -97,7 +97,7 @@ pub(crate) struct LookArgs {
     pub(crate) aberration: f32,
 
     /// Quality of a JPEG.
-    #[arg(long, value_name = "1..100", default_value_t = 92, allow_negative_numbers = true)]
+    #[arg(long, value_name = "1..100", default_value_t = lumbre::output::QUALITY, allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u8).range(1..=100))]
     pub(crate) quality: u8,
 }

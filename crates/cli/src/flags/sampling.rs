@@ -141,6 +141,7 @@ impl SamplingArgs {
             shade_back_faces: self.back_faces == BackFaces::Shade,
             clamp: self.clamp,
             transparent_background: false,
+            object_colors: false,
         }
     }
 

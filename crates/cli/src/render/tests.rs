@@ -102,8 +102,7 @@ fn with_another_device_the_file_is_the_same() {
     let cpu = |s: CompiledScene| -> Box<dyn Backend> { Box::new(lumbre::prepare_cpu(s).unwrap()) };
     assert_eq!(run(one.path(), cpu).unwrap(), Code::Done);
     let both = |s: CompiledScene| -> Box<dyn Backend> {
-        let again = s.clone();
-        Box::new(Fallback::new(flaky(s, 2), move || Ok(Box::new(lumbre::prepare_cpu(again)?))))
+        Box::new(Fallback::new(flaky(s.clone(), 2), s, |s| Ok(Box::new(lumbre::prepare_cpu(s)?))))
     };
     assert_eq!(run(two.path(), both).unwrap(), Code::Done);
     assert!(file(one.path()) == file(two.path()));

@@ -65,6 +65,7 @@ pub const GLTF_EXTENSIONS: &[GltfExtension] = &[
     ),
     full("KHR_mesh_quantization", "vertices in small integers"),
     full("KHR_meshopt_compression", "compressed buffers"),
+    full("KHR_node_visibility", "hidden nodes"),
     full("KHR_texture_basisu", "KTX2 textures"),
     full("KHR_texture_transform", "moved, turned and scaled textures"),
     not_needed("KHR_xmp", "metadata"),

@@ -80,6 +80,12 @@ impl<'a> Object<'a> {
         child.value.as_str().map(Some).ok_or_else(|| child.wrong("a string"))
     }
 
+    /// The truth value under `key`, or the default.
+    pub(super) fn truth(&self, key: &str, default: bool) -> Result<bool, IoError> {
+        let Some(child) = self.child(key) else { return Ok(default) };
+        child.value.as_bool().ok_or_else(|| child.wrong("true or false"))
+    }
+
     /// The index under `key`.
     pub(super) fn index(&self, key: &str) -> Result<Option<usize>, IoError> {
         let Some(child) = self.child(key) else { return Ok(None) };

@@ -90,10 +90,10 @@ fn load(
 
     let scene = Scene {
         name: path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
-        meshes,
+        meshes: meshes.into(),
         materials,
         textures: table.textures,
-        images,
+        images: images.into(),
         lights,
         cameras: graph.cameras,
         nodes: graph.nodes,

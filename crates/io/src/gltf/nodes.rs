@@ -9,6 +9,9 @@ use crate::{Bound, IoError, SceneChoice};
 use glam::{Mat4, Quat, Vec3, Vec4};
 use lumbre_scene::{Camera, CameraId, LightId, MeshId, Node, NodeId};
 
+/// Extension that hides nodes and what hangs from them.
+const VISIBILITY: &str = "KHR_node_visibility";
+
 /// What `load` finds.
 pub(super) struct Graph {
     pub(super) nodes: Vec<Node>,
@@ -70,9 +73,14 @@ fn load_node(
         doc.item(&doc.root.cameras, camera.value(), "camera", &|| format!("{place}/camera"))?;
         node.camera = Some(CameraId(camera.value() as u32));
     }
-    let value = json.extensions.as_ref().and_then(|e| e.others.get(lights::NAME));
-    let extension = Object::new(doc, value, || format!("{place}/extensions/{}", lights::NAME))?;
-    if let Some(light) = extension.map(|o| o.index("light")).transpose()?.flatten() {
+    let extension = |name: &str| {
+        let value = json.extensions.as_ref().and_then(|e| e.others.get(name));
+        Object::new(doc, value, || format!("{place}/extensions/{name}"))
+    };
+    if let Some(visibility) = extension(VISIBILITY)? {
+        node.visible = visibility.truth("visible", true)?;
+    }
+    if let Some(light) = extension(lights::NAME)?.map(|o| o.index("light")).transpose()?.flatten() {
         if light >= light_count {
             let why = format!("refers to light {light}, but there are {light_count}");
             return Err(doc.error(place, why));

@@ -113,5 +113,6 @@ pub fn read_environment(path: impl AsRef<Path>, limits: &Limits) -> Result<Loade
             ),
         );
     }
-    Ok(LoadedEnvironment { map: EnvironmentMap { width, height, pixels }, warnings: warnings.into_lines() })
+    let map = EnvironmentMap { width, height, pixels: pixels.into() };
+    Ok(LoadedEnvironment { map, warnings: warnings.into_lines() })
 }

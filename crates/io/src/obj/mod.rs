@@ -66,6 +66,7 @@ pub(crate) fn load(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<L
     let materials = table.materials(&libraries, &mut textures);
     let (textures, images, texture_warnings) = textures.finish();
     warnings.append(texture_warnings);
+    let images = images.into();
     let mut scene = Scene { name: scene_name(path), materials, textures, images, ..Scene::default() };
     add_meshes(&mut scene, meshes, path);
     Ok(Loaded { scene, warnings: warnings.into_lines() })

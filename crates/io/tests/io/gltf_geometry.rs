@@ -8,7 +8,7 @@ use lumbre_scene::{CameraId, LightId, LightKind, MeshId, NodeId, Primitive, Proj
 use serde_json::json;
 
 fn primitive(g: &Gltf) -> Primitive {
-    g.scene().meshes.remove(0).primitives.remove(0)
+    g.scene().meshes[0].primitives[0].clone()
 }
 
 #[test]

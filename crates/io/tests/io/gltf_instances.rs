@@ -13,6 +13,27 @@ fn load(g: &Gltf, options: &LoadOptions) -> Result<Loaded, IoError> {
     load_scene(&path, options)
 }
 
+#[test]
+fn hidden_nodes_hide_what_hangs_from_them() {
+    let mut g = Gltf::triangle();
+    g.doc["extensionsRequired"] = json!(["KHR_node_visibility"]);
+    let says = |visible: Value| json!({"KHR_node_visibility": visible});
+    g.doc["nodes"] = json!([
+        {"children": [1, 2], "extensions": says(json!({"visible": false}))},
+        {"mesh": 0, "extensions": says(json!({"visible": true}))}, {"mesh": 0},
+        {"mesh": 0, "extensions": says(json!({}))}, {"mesh": 0}
+    ]);
+    g.doc["scenes"] = json!([{"nodes": [0, 3, 4]}]);
+    let scene = g.scene();
+    let own: Vec<bool> = scene.nodes.iter().map(|n| n.visible).collect();
+    assert_eq!(own, [false, true, true, true, true]);
+    let seen: Vec<(u32, bool)> = scene.placed_nodes().iter().map(|n| (n.id.0, n.visible)).collect();
+    assert_eq!(seen, [(0, false), (1, false), (2, false), (3, true), (4, true)]);
+    g.doc["nodes"][3]["extensions"] = says(json!({"visible": 0}));
+    let place = "scene.gltf: /nodes/3/extensions/KHR_node_visibility/visible";
+    assert_eq!(g.error(), format!("{place}: should be true or false"));
+}
+
 /// The message of an error, without the folder.
 fn refused(g: &Gltf, options: &LoadOptions) -> String {
     let message = load(g, options).unwrap_err().to_string();

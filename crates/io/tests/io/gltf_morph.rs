@@ -28,7 +28,7 @@ const HALF_LIFTED: [Vec3; 3] = [Vec3::new(0.0, 0.0, 0.5), Vec3::new(1.0, 0.0, 1.
 #[test]
 fn weights_of_the_mesh_move_positions_normals_and_tangents() {
     let mut g = morphed();
-    let p = |g: &Gltf| g.scene().meshes.remove(0).primitives.remove(0);
+    let p = |g: &Gltf| g.scene().meshes[0].primitives[0].clone();
     assert_eq!(p(&g).positions, PLAIN);
     g.doc["meshes"][0]["weights"] = json!([0.5]);
     let half = p(&g);
@@ -52,7 +52,7 @@ fn only_the_vertices_in_use_are_moved() {
     *g.primitive() =
         json!({"attributes": {"POSITION": base}, "indices": index, "targets": [{"POSITION": target}]});
     g.doc["meshes"][0]["weights"] = json!([2]);
-    let p = g.scene().meshes.remove(0).primitives.remove(0);
+    let p = g.scene().meshes[0].primitives[0].clone();
     assert_eq!((p.positions, p.indices), (vec![Vec3::splat(63.0), Vec3::splat(21.0)], vec![0, 0, 1]));
 }
 
@@ -84,7 +84,7 @@ fn sparse_targets_without_a_view() {
     let target = g.doc["accessors"].as_array().unwrap().len() - 1;
     g.primitive()["targets"] = json!([{"POSITION": target}]);
     g.doc["meshes"][0]["weights"] = json!([2.0]);
-    let positions = g.scene().meshes.remove(0).primitives.remove(0).positions;
+    let positions = g.scene().meshes[0].primitives[0].positions.clone();
     assert_eq!(positions, [Vec3::ZERO, Vec3::new(15.0, 16.0, 18.0), Vec3::Y]);
 }
 

@@ -31,7 +31,7 @@ fn scene(images: &[(&str, &[u8])]) -> Gltf {
 
 /// What a scene makes of an image's bytes.
 fn read(bytes: &[u8]) -> Result<Texels, IoError> {
-    let image = scene(&[("", bytes)]).load()?.scene.images.remove(0);
+    let image = scene(&[("", bytes)]).load()?.scene.images[0].clone();
     Ok((image.width, image.height, image.rgba8))
 }
 

@@ -5,11 +5,12 @@ use super::{AccelReport, Backend, DeviceError, Frames, PassTime, RenderError, Re
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
+use lumbre_scene::{CompiledScene, SceneChanges};
 use std::ops::Range;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard};
 
 /// Makes the second backend when it is needed.
-type Make = Box<dyn FnOnce() -> Result<Box<dyn Backend>, DeviceError> + Send + Sync>;
+type Make = Box<dyn FnOnce(CompiledScene) -> Result<Box<dyn Backend>, DeviceError> + Send + Sync>;
 
 /// Two backends for one scene. The second is made when the first has failed, which is then let go.
 pub struct Fallback {
@@ -18,17 +19,18 @@ pub struct Fallback {
 
 struct State {
     current: Box<dyn Backend>,
-    /// `None`: it is in use, or could not be made.
-    next: Option<Make>,
+    /// What makes the second, and of which scene. `None`: it is in use, or could not be made.
+    next: Option<(CompiledScene, Make)>,
 }
 
 impl Fallback {
-    /// Renders on `first`, and on what `make` returns once that has failed.
+    /// Renders on `first`, and on what `make` makes of the scene once that has failed.
     pub fn new(
         first: Box<dyn Backend>,
-        make: impl FnOnce() -> Result<Box<dyn Backend>, DeviceError> + Send + Sync + 'static,
+        scene: CompiledScene,
+        make: impl FnOnce(CompiledScene) -> Result<Box<dyn Backend>, DeviceError> + Send + Sync + 'static,
     ) -> Self {
-        Fallback { state: RwLock::new(State { current: first, next: Some(Box::new(make)) }) }
+        Fallback { state: RwLock::new(State { current: first, next: Some((scene, Box::new(make))) }) }
     }
 
     fn state(&self) -> RwLockReadGuard<'_, State> {
@@ -55,14 +57,22 @@ impl Backend for Fallback {
         self.state().current.render(view, samples, film, control)
     }
 
+    fn update(&mut self, scene: CompiledScene, changes: SceneChanges) -> Result<(), RenderError> {
+        let state = self.state.get_mut().unwrap_or_else(PoisonError::into_inner);
+        if let Some((kept, _)) = &mut state.next {
+            *kept = scene.clone();
+        }
+        state.current.update(scene, changes)
+    }
+
     fn warm_up(&self, view: &View) -> Result<(), RenderError> {
         self.state().current.warm_up(view)
     }
 
     fn recover(&self, error: RenderError) -> Result<String, RenderError> {
         let mut state = self.state.write().unwrap_or_else(PoisonError::into_inner);
-        let Some(make) = state.next.take() else { return state.current.recover(error) };
-        match make() {
+        let Some((scene, make)) = state.next.take() else { return state.current.recover(error) };
+        match make(scene) {
             Ok(second) => {
                 state.current = second;
                 Ok(format!("{error}; going on with the {}", state.current.device()))
@@ -101,7 +111,7 @@ mod tests {
     use crate::{Device, Ended, SoFar, Targets, prepare, prepare_cpu, render};
     use lumbre_core::settings::RenderSettings;
     use lumbre_core::{Camera, Rgb};
-    use lumbre_scene::{Background, CompiledScene, Scene, compile};
+    use lumbre_scene::{Background, Scene, compile};
     use std::sync::Mutex;
     use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -113,12 +123,14 @@ mod tests {
         inner: Box<dyn Backend>,
         left: AtomicU32,
         asked: Asked,
+        /// Its scene can be edited.
+        edits: bool,
     }
 
     fn flaky(passes: u32) -> (Box<Flaky>, Asked) {
         let asked = Asked::default();
         let inner = prepare(scene(), Device::Cpu).unwrap();
-        let flaky = Flaky { inner, left: AtomicU32::new(passes), asked: Asked::clone(&asked) };
+        let flaky = Flaky { inner, left: AtomicU32::new(passes), asked: Asked::clone(&asked), edits: true };
         (Box::new(flaky), asked)
     }
 
@@ -144,6 +156,9 @@ mod tests {
             passes.map_err(|_| lost())?;
             self.asked.lock().unwrap().push(samples.clone());
             self.inner.render(view, samples, film, control)
+        }
+        fn update(&mut self, scene: CompiledScene, changes: SceneChanges) -> Result<(), RenderError> {
+            if self.edits { self.inner.update(scene, changes) } else { Err(lost()) }
         }
     }
 
@@ -189,7 +204,7 @@ mod tests {
     fn the_picture_is_as_if_nothing_had_happened() {
         for passes in [0, 1, 3, 5] {
             let (first, asked) = flaky(passes);
-            let both = Fallback::new(first, || Ok(Box::new(prepare_cpu(scene())?)));
+            let both = Fallback::new(first, scene(), |scene| Ok(Box::new(prepare_cpu(scene)?)));
             assert_eq!((both.device(), both.memory()), ("Flaky 1".into(), 7));
             let (mut film, heard) = (Film::new(9, 6), Heard::default());
             let outcome = render(&both, &view(), Targets::spp(TARGETS), &mut film, &heard).unwrap();
@@ -202,6 +217,37 @@ mod tests {
             assert!(notices[0].starts_with("Flaky 1: the device is lost; going on with the CPU ("));
             assert!(both.device().starts_with("CPU ("));
             assert!(heard.passes.into_inner().unwrap().windows(2).all(|w| w[0].spp < w[1].spp));
+        }
+    }
+
+    /// After an edit the second backend draws the edited scene, whether the first took the edit or failed.
+    #[test]
+    fn the_second_one_draws_the_edited_scene() {
+        let mut lit = Scene::default();
+        lit.environment.background = Background::Constant(Rgb::new(0.25, 0.5, 1.0));
+        let lit = compile(&lit).unwrap().scene;
+        let changes = SceneChanges::between(&scene(), &lit);
+        let draw = |backend: &dyn Backend| {
+            let mut film = Film::new(9, 6);
+            render(backend, &view(), Targets::spp(TARGETS), &mut film, &()).unwrap();
+            film
+        };
+        let expected = draw(&*prepare(lit.clone(), Device::Cpu).unwrap());
+        assert!(expected != whole());
+        for edits in [true, false] {
+            let (mut first, asked) = flaky(2);
+            first.edits = edits;
+            let mut both = Fallback::new(first, scene(), |scene| Ok(Box::new(prepare_cpu(scene)?)));
+            let updated = both.update(lit.clone(), changes);
+            assert_eq!(updated, if edits { Ok(()) } else { Err(lost()) });
+            if let Err(error) = updated {
+                both.recover(error).unwrap();
+            }
+            assert!(draw(&both) == expected, "first takes the edit: {edits}");
+            assert_eq!(asked.lock().unwrap().len(), if edits { 2 } else { 0 });
+            // The second one takes edits too.
+            both.update(scene(), changes).unwrap();
+            assert!(draw(&both) == whole());
         }
     }
 
@@ -238,14 +284,14 @@ mod tests {
 
     #[test]
     fn when_the_second_fails_too_it_ends() {
-        let both = Fallback::new(flaky(1).0, || Ok(flaky(1).0));
+        let both = Fallback::new(flaky(1).0, scene(), |_| Ok(flaky(1).0));
         let heard = Heard::default();
         let failed = render(&both, &view(), Targets::spp(TARGETS), &mut Film::new(9, 6), &heard).unwrap_err();
         assert_eq!((failed.error, failed.outcome.spp), (lost(), 2));
         assert_eq!(heard.notices.into_inner().unwrap().len(), 1);
         let asked = Device::Cpu;
         let none = DeviceError::Unavailable { asked, reason: "none".into() };
-        let neither = Fallback::new(flaky(0).0, move || Err(none));
+        let neither = Fallback::new(flaky(0).0, scene(), move |_| Err(none));
         let failed = render(&neither, &view(), Targets::spp(TARGETS), &mut Film::new(9, 6), &()).unwrap_err();
         assert!(failed.error.reason.contains("the device is lost; nor can the CPU go on: "), "{failed}");
     }

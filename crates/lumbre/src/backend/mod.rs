@@ -3,6 +3,7 @@
 //! [`device`] says what can be asked for, [`list`] what there is, [`open`] brings the two together, and [`fallback`] goes on
 //! where a device fails.
 
+pub mod canvas;
 pub mod device;
 pub mod fallback;
 pub mod frames;
@@ -11,6 +12,7 @@ pub mod open;
 #[cfg_attr(not(feature = "vulkan"), path = "without_vulkan.rs")]
 mod vulkan;
 
+pub use canvas::{Canvas, Developed};
 pub use device::{Device, DeviceError, GpuChoice};
 pub use fallback::Fallback;
 pub use frames::{AccelReport, Frames, PassTime, Replayed};
@@ -20,9 +22,9 @@ pub use open::{GpuOptions, OpenDevice};
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
-use lumbre_cpu::CpuBackend;
 use lumbre_cpu::bvh::SimdLevel;
-use lumbre_scene::CompiledScene;
+use lumbre_cpu::{CpuBackend, CpuOptions};
+use lumbre_scene::{CompiledScene, SceneChanges};
 use std::ops::Range;
 
 /// A device failed while it rendered: it was lost, or its memory ran out.
@@ -57,6 +59,17 @@ pub trait Backend: Send + Sync {
         film: &mut Film,
         control: &dyn Control,
     ) -> Result<Progress, RenderError>;
+
+    /// Takes an edited scene, which differs from the present one in `changes` ([`lumbre_scene::recompile`]); what it then draws is what
+    /// a backend that was prepared for that scene would draw. What did not change is left as it is, most of all where the
+    /// device was asked for that ([`OpenDevice::editable`]). Here, for backends that cannot: an error.
+    ///
+    /// # Errors
+    /// If the device fails. Then nothing can be rendered before another update succeeds, or after [`recover`](Self::recover), with the edited
+    /// scene.
+    fn update(&mut self, _scene: CompiledScene, _changes: SceneChanges) -> Result<(), RenderError> {
+        Err(RenderError { device: self.device(), reason: "its scene cannot be edited".into() })
+    }
 
     /// Does what the first render of a view does once, such as making pipelines for its settings, so that renders are as fast as they
     /// will be and can be timed.
@@ -101,6 +114,15 @@ pub trait Backend: Send + Sync {
         frames::by_renders(self, view, size, spp, count)
     }
 
+    /// Sums of a picture that people look at while it grows. Here, for devices whose memory is that of the program: a film, and plain
+    /// renders.
+    ///
+    /// # Errors
+    /// If the device fails.
+    fn canvas(&self) -> Result<Box<dyn Canvas + '_>, RenderError> {
+        Ok(Box::new(canvas::HostCanvas::new(self)))
+    }
+
     /// Collects the rays of a frame of one sample a pixel and traces them again by themselves, so many times, for measurements; `None`
     /// where the device does not know its rays apart from its shading.
     ///
@@ -129,6 +151,11 @@ impl Backend for CpuBackend {
     ) -> Result<Progress, RenderError> {
         Ok(CpuBackend::render(self, view, samples, film, control))
     }
+
+    fn update(&mut self, scene: CompiledScene, changes: SceneChanges) -> Result<(), RenderError> {
+        CpuBackend::update(self, scene, changes);
+        Ok(())
+    }
 }
 
 /// The CPU with its instruction set and the threads of the pool that asks.
@@ -152,6 +179,14 @@ pub fn prepare(scene: CompiledScene, device: Device) -> Result<Box<dyn Backend>,
 /// # Errors
 /// If the environment variable `LUMBRE_SIMD` holds no known level.
 pub fn prepare_cpu(scene: CompiledScene) -> Result<CpuBackend, DeviceError> {
+    prepare_cpu_with(scene, CpuOptions::default())
+}
+
+/// The same, as `options` ask.
+///
+/// # Errors
+/// As [`prepare_cpu`].
+pub fn prepare_cpu_with(scene: CompiledScene, options: CpuOptions) -> Result<CpuBackend, DeviceError> {
     let level = SimdLevel::detect()?;
-    Ok(CpuBackend::new(scene).with_level(level))
+    Ok(CpuBackend::with_options(scene, options).with_level(level))
 }

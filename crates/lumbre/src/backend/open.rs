@@ -1,7 +1,8 @@
 //! From what is asked for to a device that is there, before there is a scene, and from there to a backend.
 
 use super::vulkan::{self, Gpu};
-use super::{Backend, Device, DeviceError, Fallback, GpuChoice, cpu_name, devices, prepare_cpu};
+use super::{Backend, Device, DeviceError, Fallback, GpuChoice, cpu_name, devices, prepare_cpu_with};
+use lumbre_cpu::CpuOptions;
 use lumbre_cpu::bvh::SimdLevel;
 use lumbre_scene::CompiledScene;
 
@@ -19,6 +20,7 @@ pub struct OpenDevice {
     why: String,
     notes: Vec<String>,
     asked: Device,
+    editable: bool,
 }
 
 enum Kind {
@@ -49,6 +51,7 @@ impl Device {
             why,
             notes: Vec::new(),
             asked: self.clone(),
+            editable: false,
         };
         if *self == Device::Cpu {
             return Ok(cpu("as --device asks".into()));
@@ -62,7 +65,8 @@ impl Device {
         }
         match vulkan::open(&taken.device, options) {
             Ok((gpu, notes)) => {
-                Ok(OpenDevice { kind: Kind::Gpu(gpu), name: taken.name.clone(), why, notes, asked })
+                let (kind, name) = (Kind::Gpu(gpu), taken.name.clone());
+                Ok(OpenDevice { kind, name, why, notes, asked, editable: false })
             }
             Err(reason) if *self == Device::Auto => Ok(cpu(format!("auto: {}: {reason}", taken.name))),
             Err(reason) => Err(unavailable(format!("{}: {reason}", taken.name))),
@@ -99,22 +103,31 @@ impl OpenDevice {
         }
     }
 
+    /// The same, for scenes that will be edited: each mesh gets acceleration structures of its own, so that [`Backend::update`] need not
+    /// build much anew. Rays take longer where many meshes overlap.
+    pub fn editable(self) -> Self {
+        OpenDevice { editable: true, ..self }
+    }
+
     /// Brings a scene to it. A GPU that [`Device::Auto`] chose is backed by the CPU ([`Fallback`]), for which the scene is kept.
     ///
     /// # Errors
     /// If the GPU that was asked for fails, or has too little memory for the scene.
     pub fn prepare(self, scene: CompiledScene) -> Result<Prepared, DeviceError> {
-        let Kind::Gpu(gpu) = self.kind else { return on_cpu(scene, None) };
-        let first = vulkan::prepare(&gpu, &scene);
+        let options = CpuOptions { merge: !self.editable };
+        let Kind::Gpu(gpu) = self.kind else { return on_cpu(scene, options, None) };
+        let first = vulkan::prepare(&gpu, &scene, !self.editable);
         match (first, self.asked) {
             (Ok(first), asked) => {
                 let backend: Box<dyn Backend> = match asked {
-                    Device::Auto => Box::new(Fallback::new(first, move || Ok(Box::new(prepare_cpu(scene)?)))),
+                    Device::Auto => Box::new(Fallback::new(first, scene, move |scene| {
+                        Ok(Box::new(prepare_cpu_with(scene, options)?))
+                    })),
                     _ => first,
                 };
                 Ok(Prepared { backend, note: None })
             }
-            (Err(reason), Device::Auto) => on_cpu(scene, Some(format!("{}: {reason}", self.name))),
+            (Err(reason), Device::Auto) => on_cpu(scene, options, Some(format!("{}: {reason}", self.name))),
             (Err(reason), asked) => {
                 Err(DeviceError::Unavailable { asked, reason: format!("{}: {reason}", self.name) })
             }
@@ -122,8 +135,12 @@ impl OpenDevice {
     }
 }
 
-fn on_cpu(scene: CompiledScene, failed: Option<String>) -> Result<Prepared, DeviceError> {
-    let backend: Box<dyn Backend> = Box::new(prepare_cpu(scene)?);
+fn on_cpu(
+    scene: CompiledScene,
+    options: CpuOptions,
+    failed: Option<String>,
+) -> Result<Prepared, DeviceError> {
+    let backend: Box<dyn Backend> = Box::new(prepare_cpu_with(scene, options)?);
     let note = failed.map(|reason| format!("{reason}; taking the {}", backend.device()));
     Ok(Prepared { backend, note })
 }

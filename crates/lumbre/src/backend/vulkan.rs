@@ -1,14 +1,17 @@
 //! The GPUs, by `lumbre-vulkan`: its adapters, handles and errors in this crate's terms.
 
 use super::{
-    AccelReport, Backend, Device, DeviceInfo, DeviceKind, Frames, GpuChoice, GpuOptions, PassTime,
-    RenderError, Replayed,
+    AccelReport, Backend, Canvas, Developed, Device, DeviceInfo, DeviceKind, Frames, GpuChoice, GpuOptions,
+    PassTime, RenderError, Replayed,
 };
+use crate::look::Look;
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
-use lumbre_scene::CompiledScene;
-use lumbre_vulkan::{Adapter, Kind, Options, SceneOptions, Validation, VulkanBackend, VulkanError, Wanted};
+use lumbre_scene::{CompiledScene, SceneChanges};
+use lumbre_vulkan::{
+    Adapter, Kind, Options, PostLook, SceneOptions, Validation, VulkanBackend, VulkanError, Wanted,
+};
 use std::ops::Range;
 
 pub(super) use lumbre_vulkan::Gpu;
@@ -71,12 +74,12 @@ pub(super) fn open(device: &Device, options: &GpuOptions) -> Result<(Gpu, Vec<St
     opened.map_err(|e| e.to_string())
 }
 
-/// Brings a scene to a GPU.
+/// Brings a scene to a GPU; `merge`: meshes that stand in the world once share acceleration structures.
 ///
 /// # Errors
 /// If it fails or has too little memory, in one line.
-pub(super) fn prepare(gpu: &Gpu, scene: &CompiledScene) -> Result<Box<dyn Backend>, String> {
-    let backend = VulkanBackend::new(gpu, scene, SceneOptions::default());
+pub(super) fn prepare(gpu: &Gpu, scene: &CompiledScene, merge: bool) -> Result<Box<dyn Backend>, String> {
+    let backend = VulkanBackend::new(gpu, scene, SceneOptions { merge, ..SceneOptions::default() });
     Ok(Box::new(backend.map_err(|e| e.to_string())?))
 }
 
@@ -97,6 +100,10 @@ impl Backend for VulkanBackend {
         control: &dyn Control,
     ) -> Result<Progress, RenderError> {
         VulkanBackend::render(self, view, samples, film, control).map_err(|e| failed(self, &e))
+    }
+
+    fn update(&mut self, scene: CompiledScene, changes: SceneChanges) -> Result<(), RenderError> {
+        VulkanBackend::update(self, &scene, changes).map_err(|e| failed(self, &e))
     }
 
     fn warm_up(&self, view: &View) -> Result<(), RenderError> {
@@ -136,6 +143,11 @@ impl Backend for VulkanBackend {
         })
     }
 
+    fn canvas(&self) -> Result<Box<dyn Canvas + '_>, RenderError> {
+        let canvas = VulkanBackend::canvas(self).map_err(|e| failed(self, &e))?;
+        Ok(Box::new(OnGpu { backend: self, canvas }))
+    }
+
     fn replayed(&self, view: &View, size: [u32; 2], runs: u32) -> Result<Option<Replayed>, RenderError> {
         let r = VulkanBackend::replayed(self, view, size, runs).map_err(|e| failed(self, &e))?;
         Ok(Some(Replayed {
@@ -146,6 +158,42 @@ impl Backend for VulkanBackend {
             shadow_ms: r.shadow_ms,
             ms: r.ms,
         }))
+    }
+}
+
+/// Sums on a GPU.
+struct OnGpu<'a> {
+    backend: &'a VulkanBackend,
+    canvas: lumbre_vulkan::Canvas<'a>,
+}
+
+impl Canvas for OnGpu<'_> {
+    fn clear(&mut self, size: [u32; 2]) -> Result<(), RenderError> {
+        self.canvas.clear(size).map_err(|e| failed(self.backend, &e))
+    }
+
+    fn add(
+        &mut self,
+        view: &View,
+        samples: Range<u32>,
+        control: &dyn Control,
+    ) -> Result<Progress, RenderError> {
+        self.canvas.add(view, samples, control).map_err(|e| failed(self.backend, &e))
+    }
+
+    fn film(&mut self) -> Result<&Film, RenderError> {
+        self.canvas.film().map_err(|e| failed(self.backend, &e))
+    }
+
+    fn develop(&mut self, look: &Look, offset: f32, ease: f32) -> Result<Option<Developed>, RenderError> {
+        let Look { exposure, tone, vignette, aberration, transparent } = *look;
+        let look = PostLook { exposure, offset, ease, tone, vignette, aberration, transparent };
+        let (rgba, factor) = self.canvas.develop(&look).map_err(|e| failed(self.backend, &e))?;
+        Ok(Some(Developed { rgba, factor }))
+    }
+
+    fn bytes(&self) -> u64 {
+        self.canvas.bytes()
     }
 }
 

@@ -21,6 +21,6 @@ pub(super) fn open(_: &Device, _: &GpuOptions) -> Result<(Gpu, Vec<String>), Str
 }
 
 /// Never called.
-pub(super) fn prepare(gpu: &Gpu, _: &CompiledScene) -> Result<Box<dyn Backend>, String> {
+pub(super) fn prepare(gpu: &Gpu, _: &CompiledScene, _: bool) -> Result<Box<dyn Backend>, String> {
     match *gpu {}
 }

@@ -7,6 +7,12 @@ use lumbre_scene::{
     AlphaMode, Background, Camera, CameraId, Image, Light, LightId, LightKind, Material, MaterialId, Mesh,
     Node, Primitive, Scene, Texture, TextureId,
 };
+use std::sync::Arc;
+
+/// The first part of a mesh.
+fn primitive(scene: &mut Scene, mesh: usize) -> &mut Primitive {
+    &mut Arc::make_mut(&mut scene.meshes)[mesh].primitives[0]
+}
 
 /// A box with corners at ±1 whose faces point outwards; 12 triangles.
 fn cube() -> Primitive {
@@ -160,12 +166,12 @@ fn a_camera_inside_of_a_mesh() {
     add(&mut scene, cube(), Material { name: "Box".into(), ..grey() }, around);
     says(&scene, HintKind::CameraInside, "camera 0 stands inside mesh 1 (node 3 \"Box\")");
     // A box that faces inwards is a room.
-    let Primitive { indices, .. } = &mut scene.meshes[1].primitives[0];
+    let Primitive { indices, .. } = primitive(&mut scene, 1);
     indices.chunks_exact_mut(3).for_each(|t| t.swap(0, 1));
     assert!(!kinds(&scene).contains(&HintKind::CameraInside));
     // So is one that is the whole scene, if its walls can be seen.
     let mut scene = good();
-    scene.meshes[0].primitives[0] = Primitive { material: Some(MaterialId(0)), ..cube() };
+    *primitive(&mut scene, 0) = Primitive { material: Some(MaterialId(0)), ..cube() };
     scene.nodes[0].transform = Mat4::from_scale(Vec3::splat(6.0));
     scene.materials[0].double_sided = true;
     assert_eq!(kinds(&scene), []);
@@ -237,7 +243,7 @@ fn materials_that_cannot_be_seen() {
 #[test]
 fn textures_without_coordinates() {
     let mut scene = good();
-    scene.images.push(Image { name: "dot".into(), width: 1, height: 1, rgba8: vec![255; 4] });
+    scene.add_image(Image { name: "dot".into(), width: 1, height: 1, rgba8: vec![255; 4] });
     let texture = Texture {
         image: lumbre_scene::ImageId(0),
         wrap_s: Default::default(),
@@ -254,7 +260,7 @@ fn textures_without_coordinates() {
     let info = info(&scene).unwrap();
     assert_eq!((info.textures.textures, info.textures.images.len(), info.textures.bytes), (1, 1, 4));
     assert_eq!(info.materials[0].textures, 1);
-    scene.meshes[0].primitives[0].uv0 = vec![Vec2::ZERO; 4];
+    primitive(&mut scene, 0).uv0 = vec![Vec2::ZERO; 4];
     assert_eq!(kinds(&scene), []);
 }
 
@@ -286,14 +292,12 @@ fn sizes_and_places_that_surprise() {
 #[test]
 fn triangles_that_are_none() {
     let mut scene = good();
-    let primitive = &mut scene.meshes[0].primitives[0];
-    primitive.indices.extend([0, 0, 1, 1, 2, 1, 2, 2, 2]);
+    primitive(&mut scene, 0).indices.extend([0, 0, 1, 1, 2, 1, 2, 2, 2]);
     says(&scene, HintKind::Degenerate, "3 of 5 triangles have no area");
-    let primitive = &mut scene.meshes[0].primitives[0];
-    primitive.indices.truncate(9);
+    primitive(&mut scene, 0).indices.truncate(9);
     assert_eq!(info(&scene).unwrap().geometry.degenerate_triangles, 1);
     assert_eq!(kinds(&scene), []);
-    scene.meshes[0].primitives[0].positions.push(Vec3::NAN);
+    primitive(&mut scene, 0).positions.push(Vec3::NAN);
     says(&scene, HintKind::NonFinite, "1 parts of meshes have vertices that are not finite");
 }
 

@@ -1,6 +1,7 @@
 //! Light from infinitely far away.
 
 use lumbre_core::Rgb;
+use std::sync::Arc;
 
 /// A latitude-longitude map of radiance, row 0 at +y. The centre of the map lies at -z, and longitude grows to the right
 /// as seen from inside: +x lies a quarter of the width to the right of the centre.
@@ -10,8 +11,8 @@ pub struct EnvironmentMap {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// `width * height` radiances, row by row; finite and not negative.
-    pub pixels: Vec<Rgb>,
+    /// `width * height` radiances, row by row; finite and not negative. Clones share them.
+    pub pixels: Arc<[Rgb]>,
 }
 
 /// What a ray sees that hits nothing.
@@ -50,7 +51,7 @@ impl Sun {
     pub const STRENGTH: f32 = 15.0;
 
     /// Colour of the sun's light: a little warmer than the white of the picture (D65), as through some 30 degrees of air; ours.
-    const COLOR: Rgb = Rgb::new(1.0, 0.93, 0.82);
+    pub const COLOR: Rgb = Rgb::new(1.0, 0.93, 0.82);
 
     /// The sun that flags and scene files ask for: angles in degrees, and the illuminance in lux on a surface that faces it.
     pub fn daylight(elevation_deg: f32, azimuth_deg: f32, strength: f32) -> Sun {

@@ -18,6 +18,9 @@ pub struct Node {
     pub camera: Option<CameraId>,
     /// Light placed here.
     pub light: Option<LightId>,
+    /// Otherwise what stands here and on the nodes below is not drawn and gives no light (`KHR_node_visibility`). The bounds of the
+    /// scene stay as they are, so that nothing else changes where a thing is hidden and shown again.
+    pub visible: bool,
 }
 
 impl Default for Node {
@@ -29,6 +32,7 @@ impl Default for Node {
             mesh: None,
             camera: None,
             light: None,
+            visible: true,
         }
     }
 }

@@ -1,159 +1,128 @@
-//! Meshes and the instances of them.
+//! What of meshes depends on their materials, and the instances of them.
 
-use super::{CompileError, Placed, check, grow, index32, lobes, tangents};
-use crate::compiled::geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex, attribute};
-use crate::compiled::material::flag;
+use super::geometry::Meshes;
+use super::{CompileError, Earlier, Placed, grow, index32};
+use crate::compiled::geometry::{InstanceRecord, TransformKey};
+use crate::compiled::material::{MaterialRecord, flag};
 use crate::compiled::{CompiledScene, NONE};
-use crate::{Mesh, Primitive, Scene};
-use std::borrow::Cow;
+use crate::{Mesh, Scene};
 
-/// Compiles the meshes that are placed, then the instances. Returns the transform of each instance, in order.
+/// Completes the records of the meshes, and compiles the instances.
 pub(super) fn compile(
     scene: &Scene,
     placed: &[Placed],
+    (meshes, earlier): (&Meshes, Option<&Earlier<'_>>),
     out: &mut CompiledScene,
-    notes: &mut Vec<String>,
-) -> Result<Vec<glam::Affine3A>, CompileError> {
-    out.bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-    let mut compiled = vec![NONE; scene.meshes.len()];
-    let mut kept = Vec::with_capacity(placed.len());
-    for p in placed {
-        let mesh = &mut compiled[p.mesh.index()];
-        if *mesh == NONE {
-            *mesh = index32(out.meshes.len(), "meshes")?;
-            add_mesh(scene, p.mesh.index(), out, notes)?;
+) -> Result<(), CompileError> {
+    let unchanged = earlier.filter(|_| meshes.unchanged);
+    let uses: Vec<Uses> = meshes.order.iter().map(|&id| Uses::of(&scene.meshes[id], out)).collect();
+    for (mesh, uses) in out.meshes.iter_mut().zip(&uses) {
+        (mesh.opaque, mesh.culls) = (u32::from(uses.opaque), u32::from(uses.culls));
+    }
+    match unchanged.filter(|e| same_emitters(&e.compiled.materials, &out.materials)) {
+        // The records of the meshes, too, are those of the earlier scene.
+        Some(earlier) => out.emissive_ranks = earlier.compiled.emissive_ranks.clone(),
+        None => add_emissive_ranks(&uses, out)?,
+    }
+    add_instances(scene, placed, meshes, out)?;
+    out.bounds = match unchanged.filter(|e| e.stands(&out.instances, &out.transforms)) {
+        Some(earlier) => earlier.compiled.bounds,
+        None => bounds(out),
+    };
+    Ok(())
+}
+
+/// What the materials of a mesh have in common.
+struct Uses {
+    opaque: bool,
+    culls: bool,
+    emissive: bool,
+}
+
+impl Uses {
+    fn of(mesh: &Mesh, out: &CompiledScene) -> Self {
+        let mut uses = Uses { opaque: true, culls: false, emissive: false };
+        for primitive in &mesh.primitives {
+            // The default material stands behind the authored ones.
+            let material = &out.materials[primitive.material.map_or(out.materials.len() - 1, |m| m.index())];
+            uses.opaque &= material.is_opaque();
+            uses.culls |= material.culls_back_faces();
+            uses.emissive |= material.has(flag::EMISSIVE);
         }
-        let record = out.meshes[*mesh as usize];
-        if record.triangle_count == 0 {
+        uses
+    }
+}
+
+/// Whether the same of as many materials emit.
+fn same_emitters(before: &[MaterialRecord], after: &[MaterialRecord]) -> bool {
+    let emits = |m: &MaterialRecord| m.has(flag::EMISSIVE);
+    before.iter().map(emits).eq(after.iter().map(emits))
+}
+
+/// Numbers the emissive triangles of each mesh that has any.
+fn add_emissive_ranks(uses: &[Uses], out: &mut CompiledScene) -> Result<(), CompileError> {
+    let mut ranks = Vec::new();
+    for (mesh, uses) in out.meshes.iter_mut().zip(uses) {
+        mesh.first_emissive_rank = NONE;
+        if !uses.emissive {
             continue;
         }
-        let vertices = record.first_vertex as usize..(record.first_vertex + record.vertex_count) as usize;
-        for v in &out.positions[vertices] {
-            let w = p.to_world.transform_point3((*v).into());
-            if w.is_finite() {
-                grow(&mut out.bounds, w);
-            }
+        mesh.first_emissive_rank = index32(ranks.len(), "emissive triangles")?;
+        let first = mesh.first_triangle as usize;
+        let mut rank = 0;
+        for &material in &out.triangle_materials[first..first + mesh.triangle_count as usize] {
+            let emits = out.materials[material as usize].has(flag::EMISSIVE);
+            ranks.push(if emits { rank } else { NONE });
+            rank += u32::from(emits);
         }
-        out.instances.push(InstanceRecord {
-            mesh: *mesh,
-            first_transform: index32(out.transforms.len(), "transforms")?,
+    }
+    out.emissive_ranks = ranks.into();
+    Ok(())
+}
+
+/// Instances of meshes that have triangles.
+fn add_instances(
+    scene: &Scene,
+    placed: &[Placed],
+    meshes: &Meshes,
+    out: &mut CompiledScene,
+) -> Result<(), CompileError> {
+    let mut record_of = vec![NONE; scene.meshes.len()];
+    (0..).zip(&meshes.order).for_each(|(record, &id)| record_of[id] = record);
+    let (mut instances, mut transforms) = (Vec::new(), Vec::new());
+    for p in placed {
+        let mesh = record_of[p.mesh.index()];
+        if out.meshes[mesh as usize].triangle_count == 0 {
+            continue;
+        }
+        instances.push(InstanceRecord {
+            mesh,
+            first_transform: index32(transforms.len(), "transforms")?,
             transform_count: 1,
             first_light: NONE,
-            mask: u32::MAX,
+            mask: if p.visible { u32::MAX } else { 0 },
             node: p.node,
         });
-        out.transforms.push(TransformKey::new(p.to_world, 0.0));
-        kept.push(p.to_world);
+        transforms.push(TransformKey::new(p.to_world, 0.0));
     }
-    Ok(kept)
-}
-
-fn add_mesh(
-    scene: &Scene,
-    id: usize,
-    out: &mut CompiledScene,
-    notes: &mut Vec<String>,
-) -> Result<(), CompileError> {
-    let mesh: &Mesh = &scene.meshes[id];
-    let (first_vertex, first_triangle) = (out.positions.len(), out.triangles.len());
-    let (mut opaque, mut culls, mut emissive) = (true, false, false);
-    for (i, primitive) in mesh.primitives.iter().enumerate() {
-        let place = || format!("/meshes/{id}/primitives/{i}");
-        validate(scene, primitive, &place)?;
-        // The default material stands behind the authored ones.
-        let material = primitive.material.map_or(scene.materials.len(), |m| m.index());
-        let record = &out.materials[material];
-        opaque &= record.is_opaque();
-        culls |= record.culls_back_faces();
-        emissive |= record.has(flag::EMISSIVE);
-        let tangent_uv_set = scene.materials.get(material).and_then(lobes::tangent_uv_set);
-        let uv = if tangent_uv_set == Some(1) { &primitive.uv1 } else { &primitive.uv0 };
-        let primitive =
-            if tangent_uv_set.is_none() || !primitive.tangents.is_empty() || primitive.indices.is_empty() {
-                Cow::Borrowed(primitive)
-            } else if uv.is_empty() {
-                let what =
-                    "no texture coordinates for its normal map or anisotropy, which go without tangents";
-                notes.push(format!("{}: {what}", place()));
-                Cow::Borrowed(primitive)
-            } else {
-                Cow::Owned(tangents::with_tangents(primitive, uv))
-            };
-        append(&primitive, material as u32, out)?;
-    }
-    let first_emissive_rank = if emissive { add_emissive_ranks(first_triangle, out)? } else { NONE };
-    out.meshes.push(MeshRecord {
-        first_triangle: index32(first_triangle, "triangles")?,
-        triangle_count: index32(out.triangles.len(), "triangles")? - first_triangle as u32,
-        first_vertex: index32(first_vertex, "vertices")?,
-        vertex_count: index32(out.positions.len(), "vertices")? - first_vertex as u32,
-        first_emissive_rank,
-        opaque: u32::from(opaque),
-        culls: u32::from(culls),
-        attributes: attributes(&out.normals[first_vertex..], &out.vertices[first_vertex..]),
-    });
+    out.transforms = transforms.into();
+    out.instances = instances.into();
     Ok(())
 }
 
-/// What these vertices have, as bits.
-fn attributes(normals: &[[f32; 3]], vertices: &[Vertex]) -> u32 {
-    let bit = |has: fn(&Vertex) -> bool, bit: u32| if vertices.iter().any(has) { bit } else { 0 };
-    let normal = if normals.iter().any(|n| *n != [0.0; 3]) { attribute::NORMAL } else { 0 };
-    normal
-        | bit(|v| v.tangent != [0.0; 4], attribute::TANGENT)
-        | bit(|v| v.uv != [[0.0; 2]; 2], attribute::UV)
-        | bit(|v| v.color != [1.0; 4], attribute::COLOR)
-}
-
-/// Numbers the emissive triangles of the mesh that begins at `first_triangle`.
-fn add_emissive_ranks(first_triangle: usize, out: &mut CompiledScene) -> Result<u32, CompileError> {
-    let first = index32(out.emissive_ranks.len(), "emissive triangles")?;
-    let mut rank = 0;
-    for &material in &out.triangle_materials[first_triangle..] {
-        let emits = out.materials[material as usize].has(flag::EMISSIVE);
-        out.emissive_ranks.push(if emits { rank } else { NONE });
-        rank += u32::from(emits);
-    }
-    Ok(first)
-}
-
-fn validate(scene: &Scene, p: &Primitive, place: &dyn Fn() -> String) -> Result<(), CompileError> {
-    check(p.material.map(|m| m.0), scene.materials.len(), "material", place)?;
-    let n = p.positions.len();
-    let invalid = |message: String| Err(CompileError::Invalid { place: place(), message });
-    let lengths = [
-        ("normals", p.normals.len()),
-        ("tangents", p.tangents.len()),
-        ("texture coordinates", p.uv0.len()),
-        ("second texture coordinates", p.uv1.len()),
-        ("colours", p.colors.len()),
-    ];
-    for (what, len) in lengths {
-        if len != 0 && len != n {
-            return invalid(format!("{n} positions but {len} {what}"));
+/// The box around the vertices of all instances, hidden ones too.
+fn bounds(out: &CompiledScene) -> [[f32; 3]; 2] {
+    let mut bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+    for instance in &out.instances[..] {
+        let mesh = &out.meshes[instance.mesh as usize];
+        let to_world = out.transforms[instance.first_transform as usize].object_to_world();
+        let vertices = mesh.first_vertex as usize..(mesh.first_vertex + mesh.vertex_count) as usize;
+        for v in &out.positions[vertices] {
+            let w = to_world.transform_point3((*v).into());
+            if w.is_finite() {
+                grow(&mut bounds, w);
+            }
         }
     }
-    if !p.indices.len().is_multiple_of(3) {
-        return invalid(format!("{} indices are not a whole number of triangles", p.indices.len()));
-    }
-    match p.indices.iter().find(|&&i| i as usize >= n) {
-        Some(i) => invalid(format!("index {i} of a vertex where there are {n}")),
-        None => Ok(()),
-    }
-}
-
-fn append(p: &Primitive, material: u32, out: &mut CompiledScene) -> Result<(), CompileError> {
-    let base = index32(out.positions.len(), "vertices")?;
-    index32(out.positions.len() + p.positions.len(), "vertices")?;
-    out.positions.extend(p.positions.iter().map(|v| v.to_array()));
-    let normal = |i: usize| p.normals.get(i).map_or([0.0; 3], |n| n.normalize_or_zero().to_array());
-    out.normals.extend((0..p.positions.len()).map(normal));
-    out.vertices.extend((0..p.positions.len()).map(|i| Vertex {
-        tangent: p.tangents.get(i).map_or([0.0; 4], |t| t.to_array()),
-        uv: [&p.uv0, &p.uv1].map(|uv| uv.get(i).map_or([0.0; 2], |v| v.to_array())),
-        color: p.colors.get(i).map_or([1.0; 4], |c| c.to_array()),
-    }));
-    out.triangles.extend(p.indices.chunks_exact(3).map(|t| [base + t[0], base + t[1], base + t[2]]));
-    out.triangle_materials.resize(out.triangles.len(), material);
-    Ok(())
+    bounds
 }

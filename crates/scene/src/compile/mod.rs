@@ -2,7 +2,13 @@
 //!
 //! Ids are checked here, so that backends may index without asking. What cannot be drawn but does no harm (a mesh squeezed flat
 //! by its transform, a punctual light without power) is left out and named in the notes.
+//!
+//! A scene that differs little from one that was compiled is made from that: each stage asks whether what it reads is still the same
+//! ([`earlier`]) and then shares what it made. The result is the same either way.
 
+mod earlier;
+mod environment;
+mod geometry;
 mod lights;
 mod lobes;
 mod materials;
@@ -11,7 +17,9 @@ mod tangents;
 mod textures;
 
 use crate::compiled::CompiledScene;
-use crate::{MeshId, Scene};
+use crate::compiled::changes::SceneChanges;
+use crate::{MeshId, PlacedNode, Scene};
+use earlier::Earlier;
 use glam::{Affine3A, Mat4, Vec3};
 
 /// Why a scene cannot be compiled.
@@ -59,17 +67,46 @@ struct Placed {
     node: u32,
     mesh: MeshId,
     to_world: Affine3A,
+    visible: bool,
 }
 
 /// Compiles a scene.
+///
+/// # Errors
+/// If an id points nowhere, an array has the wrong length, or there is more than can be drawn.
 pub fn compile(scene: &Scene) -> Result<Compiled, CompileError> {
+    build(scene, None)
+}
+
+/// Compiles `after` and says in what it differs from `compiled`, which [`compile`] or this function made of `before`. The result is that
+/// of [`compile`] bit for bit; what both scenes share ([`Scene`]) and what follows from it is taken from `compiled`. So edits of
+/// materials, lights, nodes and environment cost what these cost, unless a material begins to need tangents. Edits of meshes or
+/// images cost as much as [`compile`].
+///
+/// # Errors
+/// As [`compile`].
+pub fn recompile(
+    before: &Scene,
+    compiled: &CompiledScene,
+    after: &Scene,
+) -> Result<(Compiled, SceneChanges), CompileError> {
+    let made = build(after, Earlier::new(before, compiled, after).as_ref())?;
+    let changes = SceneChanges::between(compiled, &made.scene);
+    Ok((made, changes))
+}
+
+fn build(scene: &Scene, earlier: Option<&Earlier<'_>>) -> Result<Compiled, CompileError> {
     let mut out = CompiledScene::default();
     let mut notes = Vec::new();
-    textures::compile(scene, &mut out)?;
+    textures::compile(scene, earlier, &mut out)?;
     materials::compile(scene, &mut out, &mut notes)?;
     let (placed, lights) = walk(scene, &mut notes)?;
-    let kept = meshes::compile(scene, &placed, &mut out, &mut notes)?;
-    lights::compile(scene, &lights, &kept, &mut out, &mut notes)?;
+    let meshes = geometry::compile(scene, &placed, earlier, &mut out, &mut notes)?;
+    meshes::compile(scene, &placed, (&meshes, earlier), &mut out)?;
+    lights::compile(scene, &lights, earlier, &mut out, &mut notes)?;
+    if let Some(earlier) = earlier {
+        earlier::share(earlier.compiled, &mut out);
+    }
     Ok(Compiled { scene: out, notes })
 }
 
@@ -79,7 +116,7 @@ type PlacedLight = (crate::LightId, Affine3A);
 /// Collects what the nodes place.
 fn walk(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Placed>, Vec<PlacedLight>), CompileError> {
     let (mut placed, mut lights) = (Vec::new(), Vec::new());
-    for (id, world) in scene.world_nodes() {
+    for PlacedNode { id, to_world, visible } in scene.placed_nodes() {
         let node = &scene.nodes[id.index()];
         let place = || format!("/nodes/{}", id.0);
         check(node.camera.map(|c| c.0), scene.cameras.len(), "camera", place)?;
@@ -88,10 +125,10 @@ fn walk(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Placed>, Vec<Plac
         for child in &node.children {
             check(Some(child.0), scene.nodes.len(), "node", place)?;
         }
-        let to_world = affine(world);
+        let to_world = affine(to_world);
         if let Some(mesh) = node.mesh {
             if invertible(to_world) {
-                placed.push(Placed { node: id.0, mesh, to_world });
+                placed.push(Placed { node: id.0, mesh, to_world, visible });
             } else {
                 notes.push(format!(
                     "/nodes/{}: its transform has no volume or is not finite; its mesh is not drawn",
@@ -99,7 +136,7 @@ fn walk(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Placed>, Vec<Plac
                 ));
             }
         }
-        if let Some(light) = node.light {
+        if let Some(light) = node.light.filter(|_| visible) {
             lights.push((light, to_world));
         }
     }

@@ -60,9 +60,9 @@ pub struct InstanceRecord {
     pub first_transform: u32,
     /// How many; 1 while nothing moves.
     pub transform_count: u32,
-    /// Light of the first emissive triangle of its mesh, or [`NONE`].
+    /// Light of the first emissive triangle of its mesh, or [`NONE`] where there is none or it is hidden.
     pub first_light: u32,
-    /// Ray mask.
+    /// Ray mask; 0 where it is hidden, so that no ray meets it and it does not light.
     pub mask: u32,
     /// Node of the authored scene.
     pub node: u32,

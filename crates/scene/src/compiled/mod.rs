@@ -1,5 +1,6 @@
 //! The one form that both backends read: flat arrays of `#[repr(C)]` records, uploaded as they are.
 
+pub mod changes;
 pub mod geometry;
 pub mod lights;
 pub mod material;
@@ -9,36 +10,37 @@ pub mod texture;
 use bytemuck::{bytes_of, cast_slice};
 use geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex};
 use lights::{EnvironmentRecord, LightGroup, LightRecord, PunctualRecord, SunRecord, TriangleLightRecord};
-use lumbre_core::Rgb;
 use lumbre_core::light::environment::EnvironmentLight;
+use lumbre_core::{Rgb, Spectrum};
 use material::{LobesRecord, MaterialRecord};
+use std::sync::Arc;
 use texture::TextureRecord;
 
 /// An index that points nowhere.
 pub const NONE: u32 = u32::MAX;
 
-/// A scene ready to be drawn.
+/// A scene ready to be drawn. Clones share what can be large.
 #[derive(Clone, Debug, Default)]
 pub struct CompiledScene {
     /// Vertex positions, object space, metres; `vertices` holds the rest of each.
-    pub positions: Vec<[f32; 3]>,
+    pub positions: Arc<[[f32; 3]]>,
     /// Unit normals, object space, as many as `positions`; zero: flat shading. Apart from the other attributes, which most hits do not
     /// read: three normals then lie in one or two lines of the cache.
-    pub normals: Vec<[f32; 3]>,
+    pub normals: Arc<[[f32; 3]]>,
     /// Further vertex attributes, as many as `positions`.
-    pub vertices: Vec<Vertex>,
+    pub vertices: Arc<[Vertex]>,
     /// Vertex indices of each triangle, into the whole of `positions`.
-    pub triangles: Vec<[u32; 3]>,
+    pub triangles: Arc<[[u32; 3]]>,
     /// Material of each triangle.
-    pub triangle_materials: Vec<u32>,
+    pub triangle_materials: Arc<[u32]>,
     /// Meshes: ranges of `triangles`.
     pub meshes: Vec<MeshRecord>,
     /// Rank of each triangle among the emissive ones of its mesh, or [`NONE`]; only for meshes that have any.
-    pub emissive_ranks: Vec<u32>,
+    pub emissive_ranks: Arc<[u32]>,
     /// Meshes placed in the world.
-    pub instances: Vec<InstanceRecord>,
+    pub instances: Arc<[InstanceRecord]>,
     /// Transforms of the instances, keyed by time.
-    pub transforms: Vec<TransformKey>,
+    pub transforms: Arc<[TransformKey]>,
     /// Materials; the last one stands in where none is given.
     pub materials: Vec<MaterialRecord>,
     /// What only some materials have.
@@ -46,15 +48,15 @@ pub struct CompiledScene {
     /// Textures, each a range of `texels`.
     pub textures: Vec<TextureRecord>,
     /// RGBA8 texels, red in the low byte.
-    pub texels: Vec<u32>,
+    pub texels: Arc<[u32]>,
     /// Every light: those of the scene's space, then those from far away.
-    pub lights: Vec<LightRecord>,
+    pub lights: Arc<[LightRecord]>,
     /// Cumulative probabilities of choosing each light of [`LightGroup::Near`]: one value more than there are.
-    pub near_light_cdf: Vec<f32>,
+    pub near_light_cdf: Arc<[f32]>,
     /// The same for [`LightGroup::Far`].
-    pub far_light_cdf: Vec<f32>,
+    pub far_light_cdf: Arc<[f32]>,
     /// Emissive triangles in world space.
-    pub triangle_lights: Vec<TriangleLightRecord>,
+    pub triangle_lights: Arc<[TriangleLightRecord]>,
     /// Point, spot and directional lights.
     pub punctual_lights: Vec<PunctualRecord>,
     /// The sun; its radiance is zero when there is none.
@@ -62,13 +64,17 @@ pub struct CompiledScene {
     /// The environment map; a black one of one texel when there is none.
     pub environment: EnvironmentRecord,
     /// Texels of the environment.
-    pub environment_pixels: Vec<Rgb>,
+    pub environment_pixels: Arc<[Rgb]>,
     /// Its distribution over rows.
-    pub environment_row_cdf: Vec<f32>,
+    pub environment_row_cdf: Arc<[f32]>,
     /// Its distribution within rows.
-    pub environment_cell_cdf: Vec<f32>,
+    pub environment_cell_cdf: Arc<[f32]>,
     /// Corners of the world-space bounding box; `min > max` for an empty scene.
     pub bounds: [[f32; 3]; 2],
+    /// Power of each light: what the probabilities above were made from. Not read when drawing.
+    pub light_powers: Arc<[f32]>,
+    /// Mean radiance of the environment over the sphere: what its power was made from. Not read when drawing.
+    pub environment_mean: Spectrum,
 }
 
 impl CompiledScene {
@@ -112,7 +118,7 @@ impl CompiledScene {
         cdf[at + 1] - cdf[at]
     }
 
-    /// All that a scene is, field by field: names, and values as bytes.
+    /// All that a scene is, field by field: names, and values as bytes. In the order of [`changes::Part`].
     pub fn sections(&self) -> Vec<(&'static str, &[u8])> {
         // All fields by name, so that none is forgotten.
         let CompiledScene {
@@ -140,6 +146,9 @@ impl CompiledScene {
             environment_row_cdf,
             environment_cell_cdf,
             bounds,
+            // What stands above was made from these: they say nothing more.
+            light_powers: _,
+            environment_mean: _,
         } = self;
         vec![
             ("positions", cast_slice(positions)),

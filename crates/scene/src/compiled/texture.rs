@@ -146,7 +146,7 @@ mod tests {
         let texels = vec![0xff00_00ff, 0x8000_ff00, 0xff00_0000, 0xffff_ffff];
         let record =
             TextureRecord { first_texel: 0, width: 2, height: 2, wrap_s: wrap, wrap_t: wrap, nearest };
-        CompiledScene { texels, textures: vec![record], ..CompiledScene::default() }
+        CompiledScene { texels: texels.into(), textures: vec![record], ..CompiledScene::default() }
     }
 
     fn at(s: &CompiledScene, u: f32, v: f32) -> Rgba {

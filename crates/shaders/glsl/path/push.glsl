@@ -69,6 +69,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Vie
     float clamp_to;
     // One of FILTER_….
     uint filter_kind;
+    // 1: the plane of albedo holds a colour for each object.
+    uint object_colors;
+    uint unused;
     CameraRecord camera;
     // The media around the camera.
     MediumStack media;

@@ -8,6 +8,7 @@
 layout(local_size_x = 64) in;
 
 #include "path/push.glsl"
+#include "label.glsl"
 #include "path/path.glsl"
 
 // Members of the three lists that this group adds to, and where in them the group's part begins.
@@ -19,7 +20,8 @@ void store_planes(uint id, inout Path path, Interaction it, Surface surface) {
     path.has_hit = true;
     Quads state = push.view.state;
     uint n = push.view.capacity;
-    state.at[STATE_ALBEDO * n + id] = floatBitsToUint(vec4(bsdf_albedo(surface.bsdf), path.travelled + it.t));
+    Rgb albedo = push.view.object_colors != 0u ? label(it.instance) : bsdf_albedo(surface.bsdf);
+    state.at[STATE_ALBEDO * n + id] = floatBitsToUint(vec4(albedo, path.travelled + it.t));
     state.at[STATE_NORMAL * n + id] = floatBitsToUint(vec4(surface.frame.n, 0.0));
     state.at[STATE_POSITION * n + id] = floatBitsToUint(vec4(it.p, 0.0));
 }

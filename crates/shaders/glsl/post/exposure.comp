@@ -59,9 +59,9 @@ float auto_factor() {
 void main() {
     float target = push.factor;
     if (push.exposure == EXPOSURE_THESIS) {
-        target = thesis_factor();
+        target *= thesis_factor();
     } else if (push.exposure == EXPOSURE_AUTO) {
-        target = auto_factor();
+        target *= auto_factor();
     }
     if (gl_LocalInvocationID.x == 0u) {
         bool known = push.state.known == 1u;

@@ -33,7 +33,7 @@ layout(push_constant, scalar) uniform PostPush {
     // Side of a block, pixels, and how many there are along each axis.
     uint block_side;
     uvec2 block_count;
-    // One of EXPOSURE_..., and the factor of EXPOSURE_FACTOR.
+    // One of EXPOSURE_..., and the factor of EXPOSURE_FACTOR; on the others, a factor on what they find.
     uint exposure;
     float factor;
     // How far the exposure goes from the last frame's to this one's: 1 all the way.

@@ -5,7 +5,7 @@ use crate::scenes::{lamps, lamps_view, look, media, media_view, samples, samples
 use glam::Vec3;
 use lumbre_core::bsdf::DiffuseSampling;
 use lumbre_core::camera::Projection;
-use lumbre_core::film::Crop;
+use lumbre_core::film::{Crop, PixelSums};
 use lumbre_core::filter::FilterKind;
 use lumbre_core::sampler::SamplerKind;
 use lumbre_core::settings::{RenderSettings, TransmissiveShadows, View};
@@ -147,4 +147,21 @@ fn skies() {
         faults.extend(both.faults(name, &view, &SHOT));
     }
     assert_none(&faults);
+}
+
+/// Colours of objects in place of the albedo: those of the CPU, some of them.
+#[test]
+fn objects_have_colours() {
+    let Some(both) = Both::new(compile(&lamps())) else { return };
+    let base = lamps_view(SHOT.aspect());
+    let settings = RenderSettings { object_colors: true, ..base.settings };
+    let view = View { settings, ..base.clone() };
+    assert_none(&both.faults("object colours", &view, &SHOT));
+    let film = &on_cpu(&both.cpu, &view, &Film::new(SHOT.size[0], SHOT.size[1]), 1)[0];
+    let plain = &on_cpu(&both.cpu, &base, &Film::new(SHOT.size[0], SHOT.size[1]), 1)[0];
+    let colors: std::collections::BTreeSet<_> =
+        film.pixels().iter().map(|p| p.albedo().to_array().map(f32::to_bits)).collect();
+    assert!((3..20).contains(&colors.len()), "{} colours", colors.len());
+    let same = |(a, b): (&PixelSums, &PixelSums)| a.radiance() == b.radiance();
+    assert!(film.pixels().iter().zip(plain.pixels()).all(same), "the picture is as it was");
 }

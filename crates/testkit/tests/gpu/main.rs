@@ -1,6 +1,7 @@
 //! The GPU against the CPU: hits, then whole paths.
 
 mod built;
+mod canvas;
 mod common;
 mod hits;
 mod own_rays;
@@ -9,3 +10,4 @@ mod planted;
 mod running;
 mod scenes;
 mod textures;
+mod updates;

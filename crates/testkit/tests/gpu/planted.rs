@@ -18,6 +18,7 @@ use lumbre_scene::{
 use lumbre_testkit::measure::grey;
 use lumbre_testkit::paired::{Bounds, Paired};
 use lumbre_testkit::shapes::{add, rectangle};
+use std::sync::Arc;
 
 /// Sixteen materials' balls in a picture cover some 8 % of it each.
 const SHOT: Shot = Shot { size: [36, 24], spp: 2, bounds: Bounds::PLAIN };
@@ -223,6 +224,11 @@ fn turned([x, y]: [f32; 2]) -> [f32; 2] {
     [c * x - s * y, s * x + c * y]
 }
 
+/// An array of a scene, to be changed.
+fn all<T: Clone>(array: &mut Arc<[T]>) -> &mut [T] {
+    Arc::make_mut(array)
+}
+
 /// A change of all punctual lights of a kind.
 fn punctual(of: u32, factor: f32) -> impl Fn(&mut CompiledScene, &mut View) {
     move |scene, _| {
@@ -251,12 +257,14 @@ fn in_lights() {
             ("directional", &punctual(kind::DIRECTIONAL, MORE)),
             ("sun", &|scene, _| scene.sun.radiance *= MORE),
             ("size of the sun", &|scene, _| scene.sun.one_minus_cos *= MORE),
-            ("environment", &|scene, _| scene.environment_pixels.iter_mut().for_each(|p| *p *= MORE)),
+            ("environment", &|scene, _| {
+                all(&mut scene.environment_pixels).iter_mut().for_each(|p| *p *= MORE)
+            }),
             ("triangles", &|scene, _| {
-                scene.triangle_lights.iter_mut().for_each(|t| t.radiance *= MORE);
+                all(&mut scene.triangle_lights).iter_mut().for_each(|t| t.radiance *= MORE);
             }),
             ("surfaces that emit", &|scene, _| scene.materials[3].emission *= MORE),
-            ("choice of lights", &|scene, _| scene.near_light_cdf[1] *= MORE),
+            ("choice of lights", &|scene, _| all(&mut scene.near_light_cdf)[1] *= MORE),
         ],
     );
 }

@@ -14,7 +14,7 @@ fn scene() -> CompiledScene {
     for [width, height] in [[7u32, 5], [3001, 2999]] {
         let texel = |i: u32| hash_combine(width, i).to_le_bytes();
         let rgba8 = (0..width * height).flat_map(texel).collect();
-        scene.images.push(Image { name: String::new(), width, height, rgba8 });
+        scene.add_image(Image { name: String::new(), width, height, rgba8 });
     }
     let modes = [Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge];
     for image in [0, 1].map(ImageId) {

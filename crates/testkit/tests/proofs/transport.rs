@@ -35,6 +35,7 @@ pub(super) const BASE: RenderSettings = RenderSettings {
     shade_back_faces: false,
     clamp: None,
     transparent_background: false,
+    object_colors: false,
 };
 
 /// A picture's mean at a number of samples of 24 x 24 pixels.
@@ -164,7 +165,7 @@ fn textured_lamp() {
             [r, g, b, 255]
         })
         .collect();
-    scene.images.push(Image { name: "lamp".into(), width: 8, height: 8, rgba8 });
+    scene.add_image(Image { name: "lamp".into(), width: 8, height: 8, rgba8 });
     let texture =
         Texture { image: ImageId(0), wrap_s: Wrap::Repeat, wrap_t: Wrap::Repeat, filter: Filter::Linear };
     scene.textures.push(texture);

@@ -52,6 +52,7 @@ fn developed(gpu: &TestGpu, films: &[&Film], look: &Look, ease: f32) -> Vec<(Vec
     );
     let look = PostLook {
         exposure: look.exposure,
+        offset: 1.0,
         ease,
         tone: look.tone,
         vignette: look.vignette,

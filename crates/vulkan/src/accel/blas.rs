@@ -92,7 +92,7 @@ impl Inputs<'_> {
     fn describe(&self, gpu: &Gpu, plan: &BlasPlan) -> Description {
         let mut description = Description { geometries: Vec::new(), ranges: Vec::new(), size: 0, scratch: 0 };
         for g in &plan.geometries {
-            let part = &self.plan.parts[g.part];
+            let part = &self.plan.parts()[g.part];
             let mesh = &self.scene.meshes[part.mesh as usize];
             let table = self.geometry.table(part.mesh);
             let indices = match self.parts.addresses[g.part][0] {

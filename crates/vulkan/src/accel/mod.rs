@@ -12,7 +12,7 @@ use crate::error::VulkanError;
 use crate::gpu::Gpu;
 use crate::scene::geometry::Geometry;
 use crate::upload::Upload;
-use lumbre_scene::CompiledScene;
+use lumbre_scene::{CompiledScene, SceneChanges};
 use plan::{Part, Plan};
 
 /// What there is of acceleration structures and what making them took.
@@ -40,11 +40,14 @@ pub struct AccelReport {
 
 /// The acceleration structures of a scene.
 pub(crate) struct Accel {
-    pub(crate) top: Structure,
+    /// `None` only while it is built anew.
+    top: Option<Structure>,
     /// Held for `top`.
-    _bottom: blas::Bottom,
+    bottom: blas::Bottom,
     /// Indices and numbers of the triangles of parts; the latter are read when something is hit.
-    _parts: PartBuffers,
+    parts: PartBuffers,
+    plan: Plan,
+    merge: bool,
     /// `GeometryRecord`s.
     pub(crate) records: Buffer,
     pub(crate) report: AccelReport,
@@ -99,11 +102,11 @@ impl Accel {
     ) -> Result<Self, VulkanError> {
         let plan = Plan::new(scene, merge);
         let mut upload = Upload::new(gpu);
-        let parts = PartBuffers::new(&mut upload, scene, geometry, &plan.parts)?;
+        let parts = PartBuffers::new(&mut upload, scene, geometry, plan.parts())?;
         let records: Vec<_> = plan.records(&parts.addresses);
         let records = Buffer::with_content(&mut upload, "geometry records", bytemuck::cast_slice(&records))?;
         let (bottom, bottom_report) = blas::build(&mut upload, scene, geometry, &plan, &parts)?;
-        let (top, top_ms) = tlas::build(&mut upload, scene, &plan, &bottom)?;
+        let (top, top_ms) = tlas::build(&mut upload, scene, (&plan, &bottom), None)?;
         upload.finish()?;
         let report = AccelReport {
             instances: plan.instances.len(),
@@ -111,6 +114,46 @@ impl Accel {
             top_build_ms: top_ms,
             ..bottom_report
         };
-        Ok(Accel { top, _bottom: bottom, _parts: parts, records, report })
+        Ok(Accel { top: Some(top), bottom, parts, plan, merge, records, report })
+    }
+
+    /// Brings them up to date with an edited scene whose meshes are the same. Where none of their triangles changed its class, and none
+    /// that moved is merged with others, that is the top level only.
+    ///
+    /// # Errors
+    /// If memory is out, the scene has too many geometries, or the device is lost; they are then of no use.
+    pub(crate) fn update(
+        &mut self,
+        gpu: &Gpu,
+        scene: &CompiledScene,
+        geometry: &Geometry,
+        changes: SceneChanges,
+    ) -> Result<(), VulkanError> {
+        let plan = self.plan.again(scene, self.merge);
+        if !plan.has_structures_of(&self.plan, changes.has(lumbre_scene::Part::Transforms)) {
+            *self = Accel::new(gpu, scene, geometry, self.merge)?;
+            return Ok(());
+        }
+        let mut upload = Upload::new(gpu);
+        if plan.hits != self.plan.hits {
+            let records = plan.records(&self.parts.addresses);
+            self.records.refill(&mut upload, "geometry records", bytemuck::cast_slice(&records))?;
+        }
+        if changes.any(&[lumbre_scene::Part::Instances, lumbre_scene::Part::Transforms]) {
+            let (top, ms) = tlas::build(&mut upload, scene, (&plan, &self.bottom), self.top.take())?;
+            let (instances, top_bytes) = (plan.instances.len(), top.size());
+            self.report = AccelReport { instances, top_bytes, top_build_ms: ms, ..self.report };
+            self.top = Some(top);
+        }
+        self.plan = plan;
+        upload.finish()
+    }
+
+    /// The top-level structure.
+    ///
+    /// # Panics
+    /// If an update failed before.
+    pub(crate) fn top(&self) -> ash::vk::AccelerationStructureKHR {
+        self.top.as_ref().expect("no update has failed").raw
     }
 }

@@ -9,6 +9,8 @@ use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::geometry::InstanceRecord;
 use lumbre_scene::compiled::material::MaterialRecord;
 use lumbre_shaders::layout::{GeometryRecord, HitClass};
+use std::ops::Range;
+use std::sync::Arc;
 
 /// What a structure's triangles have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,10 +61,20 @@ pub(crate) struct InstancePlan {
     pub(crate) first_record: usize,
 }
 
+/// The meshes of a scene, divided by class.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Division {
+    /// Of each material.
+    classes: Vec<Class>,
+    parts: Vec<Part>,
+    /// Which are those of each mesh.
+    of_mesh: Vec<Range<usize>>,
+}
+
 /// Structures, and what stands for each of their geometries when it is hit.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
-    pub(crate) parts: Vec<Part>,
+    division: Arc<Division>,
     pub(crate) structures: Vec<BlasPlan>,
     pub(crate) instances: Vec<InstancePlan>,
     /// Instance and part of each record.
@@ -83,29 +95,64 @@ impl Class {
     }
 }
 
+impl Division {
+    fn new(scene: &CompiledScene, classes: Vec<Class>) -> Self {
+        let mut parts = Vec::new();
+        let of = |mesh: usize| {
+            let first = parts.len();
+            divide(scene, mesh as u32, &classes, &mut parts);
+            first..parts.len()
+        };
+        let of_mesh = (0..scene.meshes.len()).map(of).collect();
+        Division { classes, parts, of_mesh }
+    }
+}
+
+fn classes(scene: &CompiledScene) -> Vec<Class> {
+    scene.materials.iter().map(Class::of).collect()
+}
+
 impl Plan {
     /// `merge`: meshes that stand in the world once share structures.
     pub(crate) fn new(scene: &CompiledScene, merge: bool) -> Self {
-        let mut plan = Plan::default();
+        Plan::of(scene, merge, Arc::new(Division::new(scene, classes(scene))))
+    }
+
+    /// The plan of a scene with the same meshes, whose materials and instances may be others.
+    pub(crate) fn again(&self, scene: &CompiledScene, merge: bool) -> Self {
+        let classes = classes(scene);
+        let division = match classes == self.division.classes {
+            true => self.division.clone(),
+            false => Arc::new(Division::new(scene, classes)),
+        };
+        Plan::of(scene, merge, division)
+    }
+
+    fn of(scene: &CompiledScene, merge: bool, division: Arc<Division>) -> Self {
+        let mut plan = Plan { division: division.clone(), ..Plan::default() };
         let mut uses = vec![0u32; scene.meshes.len()];
         scene.instances.iter().for_each(|i| uses[i.mesh as usize] += 1);
-        // Parts of each mesh in use.
-        let classes: Vec<Class> = scene.materials.iter().map(Class::of).collect();
-        let mut parts_of = vec![0..0; scene.meshes.len()];
-        for mesh in (0..scene.meshes.len()).filter(|&m| uses[m] > 0) {
-            let first = plan.parts.len();
-            divide(scene, mesh as u32, &classes, &mut plan.parts);
-            parts_of[mesh] = first..plan.parts.len();
-        }
         let merges = |i: &InstanceRecord| {
             merge && uses[i.mesh as usize] == 1 && i.transform_count == 1 && i.mask == u32::MAX
         };
         let (once, shared): (Vec<u32>, Vec<u32>) =
             (0..scene.instances.len() as u32).partition(|&i| merges(&scene.instances[i as usize]));
-        let parts_of = |i: &u32| parts_of[scene.instances[*i as usize].mesh as usize].clone();
+        let parts_of = |i: &u32| division.of_mesh[scene.instances[*i as usize].mesh as usize].clone();
         plan.merge(scene, once.iter().flat_map(|i| parts_of(i).map(|p| (*i, p))));
         plan.share(shared.iter().flat_map(|i| parts_of(i).map(|p| (*i, p))));
         plan
+    }
+
+    /// Parts of meshes.
+    pub(crate) fn parts(&self) -> &[Part] {
+        &self.division.parts
+    }
+
+    /// Whether the structures of another plan would be the same, where instances may have moved or not.
+    pub(crate) fn has_structures_of(&self, other: &Plan, moved: bool) -> bool {
+        let placed = |s: &BlasPlan| s.geometries.iter().any(|g| g.placed.is_some());
+        let parts = Arc::ptr_eq(&self.division, &other.division) || self.parts() == other.parts();
+        parts && self.structures == other.structures && !(moved && self.structures.iter().any(placed))
     }
 
     /// Structures of parts placed in the world once.
@@ -113,14 +160,14 @@ impl Plan {
         let mut by_class: Vec<(Class, u32, usize)> = placed
             .map(|(instance, part)| {
                 let key = &scene.transforms[scene.instances[instance as usize].first_transform as usize];
-                let class = self.parts[part].class;
+                let class = self.parts()[part].class;
                 (Class { mirrored: class.culls && key.handedness < 0.0, ..class }, instance, part)
             })
             .collect();
         by_class.sort_by_key(|&(class, instance, _)| (class, instance));
         let mut triangles = 0;
         for (class, instance, part) in by_class {
-            let count = u64::from(self.parts[part].count);
+            let count = u64::from(self.parts()[part].count);
             let fits = |last: &&mut BlasPlan| last.class == class && triangles + count <= MOST_MERGED;
             if self.structures.last_mut().filter(fits).is_none() {
                 let first_record = self.hits.len();
@@ -141,11 +188,12 @@ impl Plan {
 
     /// A structure for each part, shared by its instances.
     fn share(&mut self, placed: impl Iterator<Item = (u32, usize)>) {
-        let mut structure_of = vec![None; self.parts.len()];
+        let mut structure_of = vec![None; self.parts().len()];
         for (instance, part) in placed {
             let blas = *structure_of[part].get_or_insert_with(|| {
                 let geometries = vec![GeometryPlan { part, placed: None }];
-                self.structures.push(BlasPlan { class: self.parts[part].class, geometries });
+                let class = self.division.parts[part].class;
+                self.structures.push(BlasPlan { class, geometries });
                 self.structures.len() - 1
             });
             let first_record = self.hits.len();
@@ -159,7 +207,7 @@ impl Plan {
         let record = |&(instance, part): &(u32, usize)| GeometryRecord {
             triangle_ids: parts[part][1],
             instance,
-            mesh: self.parts[part].mesh,
+            mesh: self.parts()[part].mesh,
         };
         self.hits.iter().map(record).collect()
     }

@@ -67,12 +67,12 @@ fn instances(scene: &CompiledScene, plan: &Plan, bottom: &Bottom) -> Vec<Instanc
     plan.instances.iter().map(instance).collect()
 }
 
-/// Builds the top level; how long the device took, milliseconds.
+/// Builds the top level, in the place of an earlier one that is large enough; how long the device took, milliseconds.
 pub(super) fn build(
     upload: &mut Upload,
     scene: &CompiledScene,
-    plan: &Plan,
-    bottom: &Bottom,
+    (plan, bottom): (&Plan, &Bottom),
+    earlier: Option<Structure>,
 ) -> Result<(Structure, f64), VulkanError> {
     let gpu = upload.gpu().clone();
     if plan.hits.len() as u64 > MOST_RECORDS {
@@ -92,9 +92,11 @@ pub(super) fn build(
         .mode(vk::BuildAccelerationStructureModeKHR::BUILD)
         .geometries(&geometry);
     let sizes = build_sizes(&gpu, &info, &[all.len() as u32]);
-    let name = "the top-level structure";
-    let mut made = side_by_side(&gpu, TOP, name, &[sizes.acceleration_structure_size])?;
-    let structure = made.pop().expect("one");
+    let needed = sizes.acceleration_structure_size;
+    let structure = match earlier.filter(|e| e.size() >= needed) {
+        Some(earlier) => earlier,
+        None => side_by_side(&gpu, TOP, "the top-level structure", &[needed])?.pop().expect("one"),
+    };
     let scratch =
         Buffer::new(&gpu, "scratch space of the top level", sizes.build_scratch_size, Purpose::Data)?;
     let infos = [info

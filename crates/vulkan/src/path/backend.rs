@@ -1,7 +1,9 @@
 //! A scene on a GPU, rendered into films. Twin of the loop over tiles: `cpu/src/backend.rs`.
 
+mod canvas;
 mod own_rays;
 
+pub use canvas::Canvas;
 pub use own_rays::{OwnRays, RayBatch, Replayed};
 
 use super::code::Code;
@@ -9,17 +11,17 @@ use super::film::FilmOnGpu;
 use super::media::Solids;
 use super::passes::{Extent, HeadsReadback, LEAST_PATHS, MOST_PATHS, Passes, Paths, paths_per_sample};
 use super::slices::{Pace, Slice, Slices};
-use super::variant::SceneConstants;
+use super::variant::{Needs, SceneConstants};
 use crate::{
     AccelReport, Buffer, Gpu, Pending, PipelineCache, SceneOnGpu, SceneOptions, Specialisation, Timer,
     Upload, VulkanError,
 };
 use glam::Vec3;
 use lumbre_core::control::{Control, Progress};
-use lumbre_core::film::Film;
+use lumbre_core::film::{Crop, Film};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::{RenderSettings, View};
-use lumbre_scene::CompiledScene;
+use lumbre_scene::{CompiledScene, Part, SceneChanges};
 use lumbre_shaders as shaders;
 use lumbre_shaders::view::{Push, QueueHeads, ViewTable, queue};
 use std::collections::VecDeque;
@@ -44,8 +46,18 @@ pub struct VulkanBackend {
     constants: SceneConstants,
     tables: Buffer,
     cache: PipelineCache,
+    /// Why the scene cannot be drawn, after an update that failed.
+    failed: Option<VulkanError>,
     /// One render at a time.
     work: Mutex<Work>,
+}
+
+/// Pipelines for a choice of settings and what the scene has.
+#[derive(Clone)]
+struct Variant {
+    constants: Specialisation,
+    needs: Needs,
+    passes: Arc<Passes>,
 }
 
 /// What renders leave for the next.
@@ -53,7 +65,7 @@ struct Work {
     code: Code,
     #[cfg(feature = "shader-reload")]
     watched: super::code::Watched,
-    variants: Vec<(Specialisation, Arc<Passes>)>,
+    variants: Vec<Variant>,
     film: Option<FilmOnGpu>,
     paths: Option<Paths>,
     /// The solids around the last place of the camera.
@@ -102,8 +114,18 @@ pub struct Frames {
     pub passes: Vec<PassTime>,
 }
 
+/// A film on the device: the part of the picture that it holds, and where its sums and its list of samples that were not finite lie.
+#[derive(Clone, Copy)]
+struct Target {
+    picture: [u32; 2],
+    crop: Crop,
+    film: [u64; 2],
+}
+
 /// What all submissions of a render have in common.
 struct Shot {
+    /// What its pipelines are specialised for.
+    constants: Specialisation,
     passes: Arc<Passes>,
     /// Of each half.
     push: [Push; 2],
@@ -163,8 +185,36 @@ impl VulkanBackend {
             constants: SceneConstants::new(scene),
             tables,
             cache: PipelineCache::open(gpu),
+            failed: None,
             work: Mutex::new(Work::new()),
         })
+    }
+
+    /// Takes an edited scene, which differs from the present one in `changes`: what it then draws is what a new backend with the same
+    /// options would draw. What changed goes to the device; pipelines are made again only when the scene needs a feature that those there are
+    /// lack, and acceleration structures of meshes only where [`SceneOnGpu::update`] says so.
+    ///
+    /// # Errors
+    /// If memory is out or the device is lost. Nothing can be drawn then until another update succeeds.
+    pub fn update(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<(), VulkanError> {
+        // What a failure left is made anew.
+        let changes = if self.failed.is_some() { SceneChanges::all() } else { changes };
+        self.failed = self.take(scene, changes).err();
+        self.failed.clone().map_or(Ok(()), Err)
+    }
+
+    fn take(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<(), VulkanError> {
+        let work = self.work.get_mut().unwrap_or_else(PoisonError::into_inner);
+        if self.scene.update(scene, changes)? {
+            work.variants.clear();
+        }
+        let moved = changes.geometry() || changes.any(&[Part::Instances, Part::Transforms]);
+        if moved || changes.has(Part::Materials) {
+            self.solids.update(scene, moved);
+            work.media = None;
+        }
+        self.constants = SceneConstants::new(scene);
+        Ok(())
     }
 
     /// The device.
@@ -191,7 +241,7 @@ impl VulkanBackend {
     /// # Errors
     /// If the driver refuses a pipeline or memory is out.
     pub fn warm_up(&self, settings: &RenderSettings) -> Result<(), VulkanError> {
-        self.passes(&mut self.lock(), settings).map(drop)
+        self.variant(&mut self.lock(), settings).map(drop)
     }
 
     /// Adds the samples of a range to every pixel of `film`, the whole picture or a part of it. Stops within about a tenth of a second
@@ -207,26 +257,39 @@ impl VulkanBackend {
         control: &dyn Control,
     ) -> Result<Progress, VulkanError> {
         let mut work = self.lock();
-        let shot = self.shot(&mut work, view, film, samples.len() as u64)?;
+        let target = self.own_film(&mut work, film)?;
+        let done = self.add(&mut work, view, &target, samples, control)?;
+        work.film.as_ref().expect("made for the target").read(&self.gpu, film)?;
+        Ok(done)
+    }
+
+    /// Adds the samples of a range to a film on the device.
+    fn add(
+        &self,
+        work: &mut Work,
+        view: &View,
+        target: &Target,
+        samples: Range<u32>,
+        control: &dyn Control,
+    ) -> Result<Progress, VulkanError> {
+        let shot = self.shot(work, view, target, samples.len() as u64)?;
         let flight = self.flight(&shot, true)?;
         let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
-        let mut slices = Slices::new(film, samples, capacity);
+        let mut slices = Slices::new(target.crop.size, samples, capacity);
         let mut done = Progress::default();
         while let Some(slice) = slices.next(&work.pace) {
             if control.cancelled() {
                 break;
             }
             let began = Instant::now();
-            let submitted = self.submit(&work, &shot, &flight, (&slice, true))?;
+            let submitted = self.submit(work, &shot, &flight, (&slice, true))?;
             submitted.noted(&flight, &mut work.times)?;
-            let Some(rays) = self.finish(&mut work, &shot, &flight, (&slice, control))? else { break };
+            let Some(rays) = self.finish(work, &shot, &flight, (&slice, control))? else { break };
             work.pace.learn(slice.count(), began.elapsed().as_secs_f64());
             done.samples += slice.count();
             done.rays += rays.path + rays.shadow;
             control.progress(done);
         }
-        let on_gpu = work.film.as_ref().expect("the shot made it");
-        on_gpu.read(&self.gpu, film)?;
         Ok(done)
     }
 
@@ -237,8 +300,8 @@ impl VulkanBackend {
     /// If memory is out or the device is lost.
     pub fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, VulkanError> {
         let mut work = self.lock();
-        let film = Film::new(size[0], size[1]);
-        let shot = self.shot(&mut work, view, &film, spp.into())?;
+        let target = self.own_film(&mut work, &Film::new(size[0], size[1]))?;
+        let shot = self.shot(&mut work, view, &target, spp.into())?;
         if !shot.complete {
             drop(work);
             return self.frames_by_renders(view, size, spp, count);
@@ -249,7 +312,7 @@ impl VulkanBackend {
         // All slices of all frames, in order; a frame is done with its last one.
         let mut slices: Vec<(Slice, bool)> = Vec::new();
         for frame in 0..count {
-            let mut of_frame = Slices::new(&film, frame * spp..(frame + 1) * spp, capacity);
+            let mut of_frame = Slices::new(size, frame * spp..(frame + 1) * spp, capacity);
             slices.extend(std::iter::from_fn(|| of_frame.next(&Pace::unbounded())).map(|s| (s, false)));
             slices.last_mut().into_iter().for_each(|s| s.1 = true);
         }
@@ -359,17 +422,26 @@ impl VulkanBackend {
         Ok(Some(self.rays(work, shot, slice, last)))
     }
 
-    /// Gets ready for a film and so many samples of each pixel: pipelines, view, empty sums.
-    fn shot(&self, work: &mut Work, view: &View, film: &Film, samples: u64) -> Result<Shot, VulkanError> {
+    /// The film that the backend keeps for renders, empty, with room for one like this.
+    fn own_film(&self, work: &mut Work, film: &Film) -> Result<Target, VulkanError> {
         let pixels = film.pixels().len() as u64;
         if work.film.as_ref().is_none_or(|f| f.pixels() < pixels || f.pixels() > 4 * pixels.max(1)) {
             // The old one goes first: there may not be room for both.
             work.film = None;
             work.film = Some(FilmOnGpu::new(&self.gpu, pixels)?);
         }
-        let paths = paths_per_sample([film.width(), film.height()]).saturating_mul(samples);
+        let on_gpu = work.film.as_ref().expect("made above");
+        on_gpu.empty(&self.gpu)?;
+        Ok(Target { picture: film.picture_size(), crop: film.crop(), film: on_gpu.addresses() })
+    }
+
+    /// Gets ready for so many samples of each pixel of a film: pipelines, view, room for paths.
+    fn shot(&self, work: &mut Work, view: &View, target: &Target, samples: u64) -> Result<Shot, VulkanError> {
+        self.failed.clone().map_or(Ok(()), Err)?;
+        let Variant { constants, needs, passes } = self.variant(work, &view.settings)?;
+        let paths = paths_per_sample(target.crop.size).saturating_mul(samples);
         let paths = paths.clamp(LEAST_PATHS, MOST_PATHS);
-        let solids = self.constants.needs.solids;
+        let solids = needs.solids;
         if work.paths.as_ref().is_none_or(|p| !p.suits(paths, solids)) {
             work.paths = None;
             work.paths = Some(self.room(paths.next_power_of_two(), solids)?);
@@ -379,15 +451,10 @@ impl VulkanBackend {
             Some((at, media)) if at == eye => media,
             _ => work.media.insert((eye, self.solids.around(eye))).1,
         };
-        let on_gpu = work.film.as_ref().expect("made above");
-        let tables = self.view_tables(view, film, on_gpu, work.paths.as_ref().expect("made above"), &media);
+        let tables = self.view_tables(view, target, work.paths.as_ref().expect("made above"), &media);
         let mut upload = Upload::new(&self.gpu);
         let table = Buffer::with_content(&mut upload, "view", bytemuck::cast_slice(&tables))?;
         upload.finish()?;
-        self.gpu.run("clearing the film", |commands| {
-            on_gpu.clear(commands);
-            Ok(())
-        })?;
         let push = [0, 1].map(|half| Push {
             tables: self.tables.address(),
             scene: self.scene.address(),
@@ -400,11 +467,11 @@ impl VulkanBackend {
             group: 0,
         });
         let steps = max_depth(&view.settings) + 1;
-        let complete = steps <= MOST_STEPS && !self.constants.needs.catchers;
+        let complete = steps <= MOST_STEPS && !needs.catchers;
         // Even: each submission finds the paths in the first list. A catcher takes a step of its own.
         let steps =
             if complete { steps } else { (steps + SOME_CATCHERS).next_multiple_of(2).min(MOST_STEPS) };
-        Ok(Shot { passes: self.passes(work, &view.settings)?, push, steps, complete, _view: table })
+        Ok(Shot { constants, passes, push, steps, complete, _view: table })
     }
 
     /// Room for so many paths, or for fewer where memory is short: slices are smaller then.
@@ -421,22 +488,21 @@ impl VulkanBackend {
     fn view_tables(
         &self,
         view: &View,
-        film: &Film,
-        on_gpu: &FilmOnGpu,
+        target: &Target,
         paths: &Paths,
         media: &MediumStack,
     ) -> [ViewTable; 2] {
         let settings = &view.settings;
-        let [film_address, non_finite] = on_gpu.addresses();
+        let Target { picture, crop, film: [film, non_finite] } = *target;
         paths.addresses().map(|[state, queues, heads]| ViewTable {
-            film: film_address,
+            film,
             non_finite,
             state,
             queues,
             heads,
-            picture: film.picture_size(),
-            origin: film.origin(),
-            size: [film.width(), film.height()],
+            picture,
+            origin: crop.origin,
+            size: crop.size,
             capacity: paths.capacity(),
             seed: settings.seed,
             frame: view.frame,
@@ -444,28 +510,37 @@ impl VulkanBackend {
             roulette: settings.roulette.unwrap_or(u32::MAX),
             clamp_to: settings.clamp.unwrap_or(f32::INFINITY),
             filter_kind: settings.filter as u32,
+            object_colors: settings.object_colors.into(),
+            unused: 0,
             camera: (&view.camera).into(),
             media: media.into(),
         })
     }
 
     /// The pipelines for these settings, made if there are none yet.
-    fn passes(&self, work: &mut Work, settings: &RenderSettings) -> Result<Arc<Passes>, VulkanError> {
+    fn variant(&self, work: &mut Work, settings: &RenderSettings) -> Result<Variant, VulkanError> {
         #[cfg(feature = "shader-reload")]
         if let Some(code) = work.watched.changed() {
             work.code = code;
             work.variants.clear();
         }
         let constants = self.constants.with(settings);
-        if let Some((_, passes)) = work.variants.iter().find(|(c, _)| *c == constants) {
-            return Ok(passes.clone());
+        // An edited scene may be served by those of an earlier one, which had more.
+        let exact = work.variants.iter().position(|v| v.constants == constants);
+        let found = exact
+            .or_else(|| work.variants.iter().position(|v| SceneConstants::serves(&v.constants, &constants)));
+        if let Some(found) = found {
+            // The longest unused goes first.
+            work.variants[..=found].rotate_right(1);
+            return Ok(work.variants[0].clone());
         }
-        let needs = (self.constants.needs, settings.light_sampling);
-        let passes = Arc::new(Passes::new(&self.scene, &work.code, &constants, needs, &self.cache)?);
+        let needs = self.constants.needs;
+        let light_sampling = settings.light_sampling;
+        let passes = Passes::new(&self.scene, &work.code, &constants, (needs, light_sampling), &self.cache)?;
         self.cache.save();
         work.variants.truncate(VARIANTS - 1);
-        work.variants.insert(0, (constants, passes.clone()));
-        Ok(passes)
+        work.variants.insert(0, Variant { constants, needs, passes: Arc::new(passes) });
+        Ok(work.variants[0].clone())
     }
 }
 

@@ -1,6 +1,6 @@
 //! The film on the device: exact sums of its pixels, and the list of samples that were not finite.
 
-use crate::{Buffer, Commands, Gpu, Purpose, VulkanError};
+use crate::{Buffer, Gpu, Purpose, VulkanError};
 use lumbre_core::film::{Film, PixelSums};
 use lumbre_shaders::film::{NON_FINITE_BYTES, non_finite};
 
@@ -40,9 +40,15 @@ impl FilmOnGpu {
     }
 
     /// Makes it an empty film.
-    pub(super) fn clear(&self, commands: &Commands<'_>) {
-        commands.fill(&self.sums, 0);
-        commands.fill(&self.non_finite, 0);
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub(super) fn empty(&self, gpu: &Gpu) -> Result<(), VulkanError> {
+        gpu.run("clearing the film", |commands| {
+            commands.fill(&self.sums, 0);
+            commands.fill(&self.non_finite, 0);
+            Ok(())
+        })
     }
 
     /// Adds what it holds to a film of as many pixels.

@@ -7,22 +7,29 @@ use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::material::{MaterialRecord, flag};
 use lumbre_scene::compiled::surroundings::{Crossing, surroundings};
 
-/// All triangles of solids.
+/// All triangles of solids that are not hidden.
 pub(super) struct Solids {
     materials: Vec<MaterialRecord>,
     /// Corners in world space, counter-clockwise seen from the front, and the material.
     triangles: Vec<([Vec3; 3], u32)>,
 }
 
+fn is_solid(material: &MaterialRecord) -> bool {
+    material.has(flag::SOLID)
+}
+
 impl Solids {
     pub(super) fn new(scene: &CompiledScene) -> Self {
         let mut triangles = Vec::new();
-        for instance in &scene.instances {
+        if !scene.materials.iter().any(is_solid) {
+            return Solids { materials: scene.materials.clone(), triangles };
+        }
+        for instance in scene.instances.iter().filter(|i| i.mask != 0) {
             let mesh = &scene.meshes[instance.mesh as usize];
             let key = &scene.transforms[instance.first_transform as usize];
             for triangle in mesh.first_triangle..mesh.first_triangle + mesh.triangle_count {
                 let material = scene.triangle_materials[triangle as usize];
-                if scene.materials[material as usize].has(flag::SOLID) {
+                if is_solid(&scene.materials[material as usize]) {
                     let [a, b, c] = scene.triangles[triangle as usize]
                         .map(|v| key.point(Vec3::from_array(scene.positions[v as usize])));
                     // A transform that mirrors turns the winding but not the front.
@@ -31,6 +38,15 @@ impl Solids {
             }
         }
         Solids { materials: scene.materials.clone(), triangles }
+    }
+
+    /// Takes an edited scene, whose triangles are others or stand elsewhere if `moved`.
+    pub(super) fn update(&mut self, scene: &CompiledScene, moved: bool) {
+        if moved || self.materials.iter().map(is_solid).ne(scene.materials.iter().map(is_solid)) {
+            *self = Solids::new(scene);
+        } else {
+            self.materials.clone_from(&scene.materials);
+        }
     }
 
     /// The solids around a point.

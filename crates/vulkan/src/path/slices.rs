@@ -2,7 +2,6 @@
 //! the device for long.
 
 use super::passes::paths_per_sample;
-use lumbre_core::film::Film;
 use lumbre_shaders::view::BLOCK;
 use std::ops::Range;
 
@@ -74,9 +73,8 @@ pub(super) struct Slices {
 }
 
 impl Slices {
-    /// `capacity`: most paths of a piece, at least 4096.
-    pub(super) fn new(film: &Film, samples: Range<u32>, capacity: u64) -> Self {
-        let size = [film.width(), film.height()];
+    /// Of a film of `size` pixels. `capacity`: most paths of a piece, at least 4096.
+    pub(super) fn new(size: [u32; 2], samples: Range<u32>, capacity: u64) -> Self {
         let samples = if size.contains(&0) { 0..0 } else { samples };
         Slices { size, samples, capacity, at: [0, 0] }
     }
@@ -128,7 +126,7 @@ mod tests {
             ([1, 1], 0..1, vec![1], 4096),
         ] {
             let mut seen = vec![0u32; size[0] as usize * size[1] as usize * samples.len()];
-            let mut slices = Slices::new(&Film::new(size[0], size[1]), samples.clone(), capacity);
+            let mut slices = Slices::new(size, samples.clone(), capacity);
             let mut rooms = rooms.into_iter().cycle();
             while let Some(s) = slices.next(&Pace { room: rooms.next().unwrap() }) {
                 assert!(s.count() > 0 && s.paths() <= capacity);
@@ -143,8 +141,8 @@ mod tests {
             }
             assert!(seen.iter().all(|&n| n == 1), "{size:?} {samples:?}");
         }
-        assert_eq!(Slices::new(&Film::new(0, 5), 0..9, 4096).next(&Pace::default()), None);
-        assert_eq!(Slices::new(&Film::new(5, 5), 3..3, 4096).next(&Pace::default()), None);
+        assert_eq!(Slices::new([0, 5], 0..9, 4096).next(&Pace::default()), None);
+        assert_eq!(Slices::new([5, 5], 3..3, 4096).next(&Pace::default()), None);
     }
 
     #[test]

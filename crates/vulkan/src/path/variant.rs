@@ -58,6 +58,13 @@ impl SceneConstants {
         SceneConstants { constants, needs }
     }
 
+    /// Whether a pipeline made for `made` draws what one made for `asked` would: it may have features of materials that nothing uses.
+    /// Which kinds of light there are is exact: shaders do not ask whether a sun that they know of is there, and a vertex that asks two groups
+    /// of lights takes other numbers of the random stream.
+    pub(super) fn serves(made: &Specialisation, asked: &Specialisation) -> bool {
+        made.covers(asked, |id| matches!(id, 10..=20 | 56..=63))
+    }
+
     /// With the settings of a render.
     pub(super) fn with(&self, settings: &RenderSettings) -> Specialisation {
         settings_constants(self.constants.clone(), settings)
@@ -112,4 +119,5 @@ fn material_constants(constants: Specialisation, scene: &CompiledScene) -> Speci
         .bool(59, flagged(flag::DISPERSION))
         .bool(60, any(&|m| m.transmission > 0.0))
         .bool(62, flagged(flag::UNLIT))
+        .bool(63, any(&|m| m.has_coverage()))
 }

@@ -18,12 +18,23 @@ pub(crate) struct Geometry {
     tables: Vec<MeshTable>,
     /// For each mesh, the first vertex of its chunk.
     first_vertices: Vec<u32>,
+    /// For each mesh, where it lies in the arrays of the scene.
+    ranges: Vec<[u32; 4]>,
+}
+
+fn range(mesh: &MeshRecord) -> [u32; 4] {
+    [mesh.first_triangle, mesh.triangle_count, mesh.first_vertex, mesh.vertex_count]
 }
 
 impl Geometry {
     /// Copies everything to the device, in buffers of at most `chunk` bytes if meshes are no larger.
     pub(crate) fn new(upload: &mut Upload, scene: &CompiledScene, chunk: u64) -> Result<Self, VulkanError> {
-        let mut all = Geometry { _buffers: Vec::new(), tables: Vec::new(), first_vertices: Vec::new() };
+        let mut all = Geometry {
+            _buffers: Vec::new(),
+            tables: Vec::new(),
+            first_vertices: Vec::new(),
+            ranges: scene.meshes.iter().map(range).collect(),
+        };
         for meshes in chunks(&scene.meshes, chunk) {
             all.add(upload, scene, &scene.meshes[meshes])?;
         }
@@ -103,6 +114,18 @@ impl Geometry {
     /// Where the data of a mesh lie.
     pub(crate) fn table(&self, mesh: u32) -> &MeshTable {
         &self.tables[mesh as usize]
+    }
+
+    /// Whether these meshes lie where those lay that were copied.
+    pub(crate) fn has_ranges_of(&self, meshes: &[MeshRecord]) -> bool {
+        self.ranges.iter().copied().eq(meshes.iter().map(range))
+    }
+
+    /// Takes over what of the records of meshes does not say where they lie.
+    pub(crate) fn update(&mut self, meshes: &[MeshRecord]) {
+        for (table, mesh) in self.tables.iter_mut().zip(meshes) {
+            (table.first_emissive_rank, table.attributes) = (mesh.first_emissive_rank, mesh.attributes);
+        }
     }
 
     pub(crate) fn tables(&self) -> &[MeshTable] {

@@ -6,20 +6,22 @@ mod textures;
 
 use crate::accel::{Accel, AccelReport};
 use crate::buffer::Buffer;
+use crate::descriptors::Descriptors;
 use crate::error::VulkanError;
 use crate::gpu::Gpu;
 use crate::upload::Upload;
-use bytemuck::{Pod, bytes_of, cast_slice};
+use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use geometry::Geometry;
-use lumbre_scene::CompiledScene;
 use lumbre_scene::compiled::lights::LightGroup;
+use lumbre_scene::{CompiledScene, Part, SceneChanges};
 use lumbre_shaders::layout::SceneTable;
+use std::sync::Arc;
 use textures::Textures;
 
 /// How a scene is put on a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneOptions {
-    /// Meshes that stand in the world once share acceleration structures.
+    /// Meshes that stand in the world once share acceleration structures: faster, but an edit that moves one builds all anew.
     pub merge: bool,
     /// Bytes of a buffer of vertices or triangles, unless one mesh alone takes more.
     pub chunk: u64,
@@ -34,12 +36,16 @@ impl Default for SceneOptions {
 /// A scene on a device.
 pub struct SceneOnGpu {
     gpu: Gpu,
+    options: SceneOptions,
     table: Buffer,
-    pub(crate) accel: Accel,
-    pub(crate) textures: Textures,
-    /// Held for the addresses in `table`.
-    _geometry: Geometry,
-    _arrays: Vec<Buffer>,
+    accel: Accel,
+    textures: Textures,
+    geometry: Geometry,
+    /// What `table` says the addresses of: arrays of the scene, tables of meshes, tables of textures.
+    arrays: Vec<(Part, Buffer)>,
+    mesh_tables: Buffer,
+    texture_tables: Buffer,
+    pub(crate) descriptors: Arc<Descriptors>,
 }
 
 impl Gpu {
@@ -52,64 +58,49 @@ impl Gpu {
         let geometry = Geometry::new(&mut upload, scene, options.chunk)?;
         let accel = Accel::new(self, scene, &geometry, options.merge)?;
         let textures = Textures::new(&mut upload, scene)?;
-        let mut arrays = Vec::new();
-        let mut table = table(&mut upload, scene, &mut arrays)?;
-        let mut add = |name, content: &[u8]| array(&mut upload, &mut arrays, name, content);
-        table.geometries = accel.records.address();
-        table.meshes = add("tables of meshes", cast_slice(geometry.tables()))?;
-        table.textures = add("tables of textures", cast_slice(&textures.tables))?;
-        let table = Buffer::with_content(&mut upload, "the scene's table", bytes_of(&table))?;
+        let array = |(part, name, content): (Part, &str, &[u8])| {
+            Ok((part, Buffer::with_content(&mut upload, name, content)?))
+        };
+        let arrays = arrays(scene).into_iter().map(array).collect::<Result<_, VulkanError>>()?;
+        let mut add = |name, content: &[u8]| Buffer::with_content(&mut upload, name, content);
+        let made = SceneOnGpu {
+            gpu: self.clone(),
+            options,
+            table: add("the scene's table", bytes_of(&SceneTable::zeroed()))?,
+            mesh_tables: add("tables of meshes", cast_slice(geometry.tables()))?,
+            texture_tables: add("tables of textures", cast_slice(&textures.tables))?,
+            descriptors: Arc::new(Descriptors::new(self, accel.top(), &textures.views)?),
+            accel,
+            textures,
+            geometry,
+            arrays,
+        };
+        upload.write(&made.table, 0, bytes_of(&made.table_of(scene)))?;
         upload.finish()?;
-        Ok(SceneOnGpu { gpu: self.clone(), table, accel, textures, _geometry: geometry, _arrays: arrays })
+        Ok(made)
     }
 }
 
-/// An array in a buffer of its own; its address.
-fn array(
-    upload: &mut Upload,
-    arrays: &mut Vec<Buffer>,
-    name: &str,
-    content: &[u8],
-) -> Result<u64, VulkanError> {
-    let buffer = Buffer::with_content(upload, name, content)?;
-    let address = buffer.address();
-    arrays.push(buffer);
-    Ok(address)
-}
-
-/// The table, without geometries, meshes and textures.
-fn table(
-    upload: &mut Upload,
-    scene: &CompiledScene,
-    arrays: &mut Vec<Buffer>,
-) -> Result<SceneTable, VulkanError> {
+/// The arrays that go up as they are, each in a buffer of its own.
+fn arrays(scene: &CompiledScene) -> [(Part, &'static str, &[u8]); 13] {
     fn bytes<T: Pod>(content: &[T]) -> &[u8] {
         cast_slice(content)
     }
-    let mut add = |name, content| array(upload, arrays, name, content);
-    let lights = |group| scene.light_group(group).1.len().saturating_sub(1) as u32;
-    Ok(SceneTable {
-        geometries: 0,
-        meshes: 0,
-        instances: add("instances", bytes(&scene.instances))?,
-        transforms: add("transforms", bytes(&scene.transforms))?,
-        materials: add("materials", bytes(&scene.materials))?,
-        lobes: add("lobes", bytes(&scene.lobes))?,
-        textures: 0,
-        emissive_ranks: add("ranks of emissive triangles", bytes(&scene.emissive_ranks))?,
-        lights: add("lights", bytes(&scene.lights))?,
-        near_light_cdf: add("probabilities of near lights", bytes(&scene.near_light_cdf))?,
-        far_light_cdf: add("probabilities of far lights", bytes(&scene.far_light_cdf))?,
-        triangle_lights: add("emissive triangles", bytes(&scene.triangle_lights))?,
-        punctual_lights: add("punctual lights", bytes(&scene.punctual_lights))?,
-        environment_pixels: add("texels of the environment", bytes(&scene.environment_pixels))?,
-        environment_row_cdf: add("rows of the environment", bytes(&scene.environment_row_cdf))?,
-        environment_cell_cdf: add("cells of the environment", bytes(&scene.environment_cell_cdf))?,
-        near_lights: lights(LightGroup::Near),
-        far_lights: lights(LightGroup::Far),
-        sun: scene.sun,
-        environment: scene.environment,
-    })
+    [
+        (Part::Instances, "instances", bytes(&scene.instances)),
+        (Part::Transforms, "transforms", bytes(&scene.transforms)),
+        (Part::Materials, "materials", bytes(&scene.materials)),
+        (Part::Lobes, "lobes", bytes(&scene.lobes)),
+        (Part::EmissiveRanks, "ranks of emissive triangles", bytes(&scene.emissive_ranks)),
+        (Part::Lights, "lights", bytes(&scene.lights)),
+        (Part::NearLightCdf, "probabilities of near lights", bytes(&scene.near_light_cdf)),
+        (Part::FarLightCdf, "probabilities of far lights", bytes(&scene.far_light_cdf)),
+        (Part::TriangleLights, "emissive triangles", bytes(&scene.triangle_lights)),
+        (Part::PunctualLights, "punctual lights", bytes(&scene.punctual_lights)),
+        (Part::EnvironmentPixels, "texels of the environment", bytes(&scene.environment_pixels)),
+        (Part::EnvironmentRowCdf, "rows of the environment", bytes(&scene.environment_row_cdf)),
+        (Part::EnvironmentCellCdf, "cells of the environment", bytes(&scene.environment_cell_cdf)),
+    ]
 }
 
 impl SceneOnGpu {
@@ -126,5 +117,73 @@ impl SceneOnGpu {
     /// What there is of acceleration structures and what making them took.
     pub fn accel(&self) -> &AccelReport {
         &self.accel.report
+    }
+
+    /// Takes an edited scene, which differs from the present one in `changes`: arrays that changed go up again, and of acceleration
+    /// structures what must be is built again. Returns whether meshes or images changed: then all is new, and pipelines that were
+    /// made for the scene are of no use. Otherwise they, and [`Self::address`], stay what they are. Nothing that reads the scene may
+    /// be under way.
+    ///
+    /// # Errors
+    /// As [`Gpu::scene`]. The scene is then of no use.
+    pub fn update(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<bool, VulkanError> {
+        if changes.geometry()
+            || changes.has(Part::Texels)
+            || !self.geometry.has_ranges_of(&scene.meshes)
+            || !self.textures.has_places_of(&scene.textures)
+        {
+            *self = self.gpu.scene(scene, self.options)?;
+            return Ok(true);
+        }
+        let mut upload = Upload::new(&self.gpu);
+        for ((part, buffer), (_, name, content)) in self.arrays.iter_mut().zip(arrays(scene)) {
+            if changes.has(*part) {
+                buffer.refill(&mut upload, name, content)?;
+            }
+        }
+        if changes.has(Part::Meshes) {
+            self.geometry.update(&scene.meshes);
+            self.mesh_tables.refill(&mut upload, "tables of meshes", cast_slice(self.geometry.tables()))?;
+        }
+        if changes.any(&[Part::Materials, Part::Textures]) && self.textures.update(&mut upload, scene)? {
+            let tables = cast_slice(&self.textures.tables);
+            self.texture_tables.refill(&mut upload, "tables of textures", tables)?;
+        }
+        if changes.any(&[Part::Materials, Part::Instances, Part::Transforms]) {
+            self.accel.update(&self.gpu, scene, &self.geometry, changes)?;
+            // Another structure may have the handle of one that is gone.
+            self.descriptors.write_top(self.accel.top());
+        }
+        upload.write(&self.table, 0, bytes_of(&self.table_of(scene)))?;
+        upload.finish()?;
+        Ok(false)
+    }
+
+    /// The table.
+    fn table_of(&self, scene: &CompiledScene) -> SceneTable {
+        let at = |part| self.arrays.iter().find(|a| a.0 == part).expect("one of the arrays").1.address();
+        let lights = |group| scene.light_group(group).1.len().saturating_sub(1) as u32;
+        SceneTable {
+            geometries: self.accel.records.address(),
+            meshes: self.mesh_tables.address(),
+            instances: at(Part::Instances),
+            transforms: at(Part::Transforms),
+            materials: at(Part::Materials),
+            lobes: at(Part::Lobes),
+            textures: self.texture_tables.address(),
+            emissive_ranks: at(Part::EmissiveRanks),
+            lights: at(Part::Lights),
+            near_light_cdf: at(Part::NearLightCdf),
+            far_light_cdf: at(Part::FarLightCdf),
+            triangle_lights: at(Part::TriangleLights),
+            punctual_lights: at(Part::PunctualLights),
+            environment_pixels: at(Part::EnvironmentPixels),
+            environment_row_cdf: at(Part::EnvironmentRowCdf),
+            environment_cell_cdf: at(Part::EnvironmentCellCdf),
+            near_lights: lights(LightGroup::Near),
+            far_lights: lights(LightGroup::Far),
+            sun: scene.sun,
+            environment: scene.environment,
+        }
     }
 }

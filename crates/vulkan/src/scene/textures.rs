@@ -14,7 +14,9 @@ use std::collections::BTreeMap;
 /// The textures of a scene.
 pub(crate) struct Textures {
     _images: Vec<Image>,
-    _texels: Vec<Buffer>,
+    /// Texels in buffers.
+    texels: BTreeMap<Place, Buffer>,
+    places: Vec<Place>,
     /// One for each texture.
     pub(crate) views: Vec<vk::ImageView>,
     /// One for each texture.
@@ -39,11 +41,21 @@ impl Textures {
     /// If they are too many or too large for it, memory is out, or the device is lost.
     pub(crate) fn new(upload: &mut Upload, scene: &CompiledScene) -> Result<Self, VulkanError> {
         check(&upload.gpu().0.limits, scene)?;
-        let mut all =
-            Textures { _images: Vec::new(), _texels: Vec::new(), views: Vec::new(), tables: Vec::new() };
+        let mut all = Textures {
+            _images: Vec::new(),
+            texels: BTreeMap::new(),
+            places: scene.textures.iter().map(place).collect(),
+            views: Vec::new(),
+            tables: Vec::new(),
+        };
         all.add_images(upload, scene)?;
-        all.add_tables(upload, scene)?;
+        all.update(upload, scene)?;
         Ok(all)
+    }
+
+    /// Whether these textures are of the same images.
+    pub(crate) fn has_places_of(&self, textures: &[TextureRecord]) -> bool {
+        self.places.iter().copied().eq(textures.iter().map(place))
     }
 
     fn add_images(&mut self, upload: &mut Upload, scene: &CompiledScene) -> Result<(), VulkanError> {
@@ -60,20 +72,21 @@ impl Textures {
         Ok(())
     }
 
-    /// Tables of all, and texels of those that decide alpha.
-    fn add_tables(&mut self, upload: &mut Upload, scene: &CompiledScene) -> Result<(), VulkanError> {
-        let by_hand = deciding_alpha(scene);
-        let mut addresses = BTreeMap::<Place, u64>::new();
-        for (t, by_hand) in scene.textures.iter().zip(by_hand) {
+    /// Makes the tables of all for these materials and samplers, and brings there the texels that begin to decide alpha; whether that
+    /// changed a table.
+    ///
+    /// # Errors
+    /// If memory is out, or the device is lost.
+    pub(crate) fn update(&mut self, upload: &mut Upload, scene: &CompiledScene) -> Result<bool, VulkanError> {
+        let mut tables = Vec::with_capacity(scene.textures.len());
+        for (t, by_hand) in scene.textures.iter().zip(deciding_alpha(scene)) {
             let at = place(t);
-            if by_hand && !addresses.contains_key(&at) {
+            if by_hand && !self.texels.contains_key(&at) {
                 let content = bytemuck::cast_slice(texels(scene, &at));
-                let buffer = Buffer::with_content(upload, "texels", content)?;
-                addresses.insert(at, buffer.address());
-                self._texels.push(buffer);
+                self.texels.insert(at, Buffer::with_content(upload, "texels", content)?);
             }
-            self.tables.push(TextureTable {
-                texels: if by_hand { addresses[&at] } else { 0 },
+            tables.push(TextureTable {
+                texels: if by_hand { self.texels[&at].address() } else { 0 },
                 width: t.width,
                 height: t.height,
                 wrap_s: t.wrap_s,
@@ -82,7 +95,10 @@ impl Textures {
                 unused: 0,
             });
         }
-        Ok(())
+        let before: &[u8] = bytemuck::cast_slice(&self.tables);
+        let changed = before != bytemuck::cast_slice::<_, u8>(&tables);
+        self.tables = tables;
+        Ok(changed)
     }
 }
 

@@ -13,7 +13,7 @@ use lumbre_shaders::replay::{ReplayRay, kind};
 /// `count` meshes of one triangle, each a metre behind the one before, and a texture.
 fn scene(count: u32) -> CompiledScene {
     let mut scene = Scene::default();
-    scene.images.push(Image { name: String::new(), width: 64, height: 64, rgba8: vec![7; 4 * 64 * 64] });
+    scene.add_image(Image { name: String::new(), width: 64, height: 64, rgba8: vec![7; 4 * 64 * 64] });
     let (wrap, filter) = (Wrap::default(), Filter::default());
     scene.textures.push(Texture { image: ImageId(0), wrap_s: wrap, wrap_t: wrap, filter });
     let texture = Some(lumbre_scene::TextureId(0).into());

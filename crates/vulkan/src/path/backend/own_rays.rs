@@ -103,7 +103,8 @@ impl VulkanBackend {
     /// If the picture has more pixels than there is room for paths, memory is out, or the device is lost.
     pub fn own_rays(&self, view: &View, size: [u32; 2]) -> Result<OwnRays, VulkanError> {
         let mut work = self.lock();
-        let shot = self.shot(&mut work, view, &Film::new(size[0], size[1]), 1)?;
+        let target = self.own_film(&mut work, &Film::new(size[0], size[1]))?;
+        let shot = self.shot(&mut work, view, &target, 1)?;
         let paths = work.paths.as_ref().expect("the shot made them");
         let (needed, limit) = (super::paths_per_sample(size), u64::from(paths.capacity()));
         if needed > limit {
@@ -112,7 +113,7 @@ impl VulkanBackend {
         let slice = Slice { first_pixel: [0, 0], size, samples: 0..1 };
         // Not in halves: the rays of a step are in one list.
         let push = shot.of(std::slice::from_ref(&slice))[0];
-        let collector = Collector::new(self, view, &shot, needed as u32)?;
+        let collector = Collector::new(self, &shot, needed as u32)?;
         self.gpu.run("beginning paths", |commands| {
             let extent = Extent { begins: true, steps: 0, ends: false };
             shot.passes.record(commands, paths, &collector.timer, (&[push], extent));
@@ -208,11 +209,15 @@ impl OwnRays {
 
 impl Collector {
     /// For lists of at most `most` paths.
-    fn new(backend: &VulkanBackend, view: &View, shot: &Shot, most: u32) -> Result<Self, VulkanError> {
-        let constants = backend.constants.with(&view.settings);
+    fn new(backend: &VulkanBackend, shot: &Shot, most: u32) -> Result<Self, VulkanError> {
         let push = size_of::<CollectPush>() as u32;
-        let pipeline =
-            ComputePipeline::of_scene(&backend.scene, replay::COLLECT, &constants, push, &backend.cache)?;
+        let pipeline = ComputePipeline::of_scene(
+            &backend.scene,
+            replay::COLLECT,
+            &shot.constants,
+            push,
+            &backend.cache,
+        )?;
         let buffers = |size: usize| -> Result<[Buffer; 2], VulkanError> {
             let new =
                 |purpose| Buffer::new(&backend.gpu, "collected rays", u64::from(most) * size as u64, purpose);

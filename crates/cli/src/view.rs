@@ -1,0 +1,43 @@
+//! `lumbre view`: the interactive window.
+
+use crate::exit::{Code, Failure};
+use crate::flags::values::Size;
+use crate::flags::view::ViewArgs;
+use lumbre::edits::Edits;
+use lumbre::rayon::ThreadPoolBuilder;
+use lumbre_viewer::{Options, ViewError};
+use std::path::Path;
+
+/// Runs the command.
+pub(crate) fn run(args: &ViewArgs) -> Result<Code, Failure> {
+    // What can be known to fail is told here, where it was asked for; all else is told in the window.
+    args.scene.as_deref().map_or(Ok(()), is_there)?;
+    if let Some(edits) = &args.edits {
+        Edits::read(edits)?;
+    }
+    if let Some(threads) = args.device.threads {
+        let pool = ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+        pool.map_err(|e| Failure::new(Code::Memory, format!("cannot start the threads: {e}")))?;
+    }
+    lumbre_viewer::run(Options {
+        scene: args.scene.clone(),
+        load: args.loading.options(),
+        edits: args.edits.clone(),
+        device: args.device.device.clone(),
+        gpu: args.device.options(),
+        watch: args.watch,
+        size: args.size.map(|Size(size)| size.map(|n| n as f32)),
+    })?;
+    Ok(Code::Done)
+}
+
+fn is_there(scene: &Path) -> Result<(), Failure> {
+    let found = std::fs::metadata(scene);
+    found.map(|_| ()).map_err(|e| Failure::new(Code::CannotOpen, format!("{}: {e}", scene.display())))
+}
+
+impl From<ViewError> for Failure {
+    fn from(e: ViewError) -> Self {
+        Self::new(Code::Unavailable, e)
+    }
+}

@@ -1,0 +1,469 @@
+//! The thread of a session: what is wanted becomes frames.
+
+use super::pace::{Pace, finer, scaled};
+use super::show::{Shot, Show, is_automatic, offset};
+use super::sink::{Event, Frame, FrameSink, FrameStats};
+use super::{Layer, Shared, Wanted, layers};
+use crate::backend::{Backend, Canvas, PassTime, RenderError};
+use crate::estimate::Estimator;
+use crate::look::Negative;
+use crate::{Device, GpuOptions};
+use lumbre_core::Film;
+use lumbre_core::color::ease_share;
+use lumbre_core::control::Control;
+use lumbre_core::settings::{RenderSettings, View};
+use lumbre_scene::{CompiledScene, Scene, SceneChanges, compile, recompile};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Samples from which an estimate of the error says anything.
+const LEAST_FOR_ERROR: u32 = 16;
+/// Between two frames of an exposure on its way while no samples come.
+const STEP: Duration = Duration::from_millis(33);
+/// An exposure that is this near, in EV, has arrived.
+const ARRIVED: f32 = 0.02;
+
+/// The thread: until the session ends.
+pub(super) fn run(shared: Arc<Shared>, gpu: GpuOptions, sink: Arc<dyn FrameSink>) {
+    let show = Show::start(sink.clone());
+    let wanted = {
+        let mut state = shared.state();
+        state.taken = state.number;
+        state.wanted.clone()
+    };
+    show.look(wanted.look);
+    let pace = Pace::new(false);
+    let mut engine = Engine { shared, gpu, sink, show, wanted, number: 1, failed: None, refused: None, pace };
+    // `None` comes from far inside once the session is over.
+    let _ = engine.work();
+}
+
+struct Engine {
+    shared: Arc<Shared>,
+    gpu: GpuOptions,
+    sink: Arc<dyn FrameSink>,
+    show: Show,
+    wanted: Wanted,
+    /// Of what is wanted.
+    number: u64,
+    /// The device that failed, and that the CPU stands in for until another one is wanted.
+    failed: Option<Device>,
+    /// The scene that could not be compiled.
+    refused: Option<Arc<Scene>>,
+    /// Of the device that draws.
+    pace: Pace,
+}
+
+/// A scene as it was written and as it is drawn.
+struct Made {
+    scene: Arc<Scene>,
+    compiled: CompiledScene,
+}
+
+/// Why frames of a backend ended.
+enum Next {
+    /// Another scene is to be drawn; in what it differs if it is an edited form of the last.
+    Scene(Box<Made>, Option<SceneChanges>),
+    /// Another device is wanted.
+    Device,
+    /// The device failed.
+    Lost(RenderError),
+}
+
+/// Interrupts a pass when something else is wanted.
+struct Interrupt<'a>(&'a Shared);
+
+impl Control for Interrupt<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.interrupt.load(Ordering::Relaxed)
+    }
+}
+
+impl Engine {
+    fn work(&mut self) -> Option<()> {
+        let mut made = self.first_scene()?;
+        loop {
+            let backend = self.prepare(&made)?;
+            loop {
+                *self.shared.drawn() = Some(made.compiled.clone());
+                match self.frames(&*backend, &made)? {
+                    Next::Device => break,
+                    Next::Scene(other, changes) => {
+                        made = *other;
+                        if changes.is_none_or(|c| !c.is_empty()) {
+                            break;
+                        }
+                    }
+                    Next::Lost(error) => {
+                        self.failed = Some(self.wanted.device.clone());
+                        self.sink.event(Event::Notice(format!("{error}; going on with the CPU")));
+                        break;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The first scene that can be compiled.
+    fn first_scene(&mut self) -> Option<Made> {
+        loop {
+            if let Some((made, _)) = self.compile(None) {
+                return Some(made);
+            }
+            self.wait(None)?;
+        }
+    }
+
+    /// Compiles the scene that is wanted; in what it differs from `last`, if it is an edited form of that.
+    fn compile(&mut self, last: Option<&Made>) -> Option<(Made, Option<SceneChanges>)> {
+        let scene = self.wanted.scene.clone();
+        let edited = |m: &&Made| {
+            Arc::ptr_eq(&m.scene.meshes, &scene.meshes) && Arc::ptr_eq(&m.scene.images, &scene.images)
+        };
+        let done = match last.filter(edited) {
+            Some(m) => recompile(&m.scene, &m.compiled, &scene).map(|(done, changes)| (done, Some(changes))),
+            None => {
+                self.sink.event(Event::Preparing("compiling the scene".into()));
+                compile(&scene).map(|done| (done, None))
+            }
+        };
+        match done {
+            Ok((done, changes)) => {
+                if changes.is_none() {
+                    done.notes.into_iter().for_each(|note| self.sink.event(Event::Notice(note)));
+                }
+                Some((Made { scene, compiled: done.scene }, changes))
+            }
+            Err(e) => {
+                self.sink.event(Event::Failed(format!("{}: {e}", scene.name)));
+                self.refused = Some(scene);
+                None
+            }
+        }
+    }
+
+    /// Brings a scene to the device that is wanted, or to the CPU.
+    fn prepare(&mut self, made: &Made) -> Option<Box<dyn Backend>> {
+        let began = Instant::now();
+        loop {
+            let device = match &self.failed {
+                Some(failed) if *failed == self.wanted.device => Device::Cpu,
+                _ => self.wanted.device.clone(),
+            };
+            self.sink.event(Event::Preparing("bringing the scene to the device".into()));
+            let opened = device.open(&self.gpu).and_then(|open| {
+                open.notes().iter().for_each(|note| self.sink.event(Event::Notice(note.clone())));
+                // The session goes on by itself where a device fails, and then has the edited scene.
+                open.alone().prepare(made.compiled.clone())
+            });
+            match opened {
+                Ok(prepared) => {
+                    prepared.note.into_iter().for_each(|note| self.sink.event(Event::Notice(note)));
+                    self.pace = Pace::new(device != Device::Cpu);
+                    let device = prepared.backend.device();
+                    let seconds = began.elapsed().as_secs_f64();
+                    self.sink.event(Event::Prepared { device, seconds });
+                    return Some(prepared.backend);
+                }
+                Err(e) if device == Device::Cpu => {
+                    self.sink.event(Event::Failed(e.to_string()));
+                    self.wait(None)?;
+                }
+                Err(e) => {
+                    self.failed = Some(device);
+                    self.sink.event(Event::Notice(format!("{e}; going on with the CPU")));
+                }
+            }
+        }
+    }
+
+    /// Takes in what is wanted by now; waits for it, up to a time, if nothing else is wanted. `None` when the session is over.
+    fn wait(&mut self, up_to: Option<Duration>) -> Option<()> {
+        let mut state = self.shared.state();
+        while state.number == state.taken && !state.ended && !state.saving() {
+            let Some(up_to) = up_to else {
+                state = self.shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+                continue;
+            };
+            if !up_to.is_zero() {
+                let waited = self.shared.changed.wait_timeout(state, up_to);
+                state = waited.unwrap_or_else(PoisonError::into_inner).0;
+            }
+            break;
+        }
+        if state.ended {
+            return None;
+        }
+        state.taken = state.number;
+        self.number = state.number;
+        self.wanted = state.wanted.clone();
+        self.shared.interrupt.store(false, Ordering::Relaxed);
+        Some(())
+    }
+
+    /// Frames of one scene on one device.
+    fn frames(&mut self, backend: &dyn Backend, made: &Made) -> Option<Next> {
+        let run = backend.canvas().and_then(|canvas| Run::new(backend, canvas, self));
+        let mut run = match run {
+            Ok(run) => run,
+            Err(e) => return Some(Next::Lost(e)),
+        };
+        loop {
+            let before = self.wanted.clone();
+            self.wait(run.patience(self))?;
+            if self.wanted.device != before.device {
+                return Some(Next::Device);
+            }
+            let drawn = |s: &Arc<Scene>| Arc::ptr_eq(s, &self.wanted.scene);
+            let refused = self.refused.as_ref().is_some_and(drawn);
+            if !drawn(&made.scene)
+                && !refused
+                && let Some((next, changes)) = self.compile(Some(made))
+            {
+                return Some(Next::Scene(Box::new(next), changes));
+            }
+            if let Err(e) = run.turn(self, &before) {
+                return Some(Next::Lost(e));
+            }
+        }
+    }
+}
+
+/// A picture that grows on a device.
+struct Run<'a> {
+    backend: &'a dyn Backend,
+    canvas: Box<dyn Canvas + 'a>,
+    estimator: Estimator,
+    scale: u32,
+    spp: u32,
+    /// Frames so far: the random stream of rough ones.
+    rough: u32,
+    began: Instant,
+    passes: Vec<PassTime>,
+    stats: FrameStats,
+    /// Exposure of the last frame, where the device develops.
+    exposed: Option<(f32, Instant)>,
+    /// An eased exposure has not arrived.
+    easing: bool,
+}
+
+impl<'a> Run<'a> {
+    fn new(
+        backend: &'a dyn Backend,
+        canvas: Box<dyn Canvas + 'a>,
+        engine: &Engine,
+    ) -> Result<Self, RenderError> {
+        backend.warm_up(&engine.view(0))?;
+        let mut run = Run {
+            backend,
+            canvas,
+            estimator: Estimator::new(&Film::new(0, 0), &engine.wanted.settings),
+            scale: 1,
+            spp: 0,
+            rough: 0,
+            began: Instant::now(),
+            passes: backend.pass_times(),
+            stats: FrameStats::default(),
+            exposed: None,
+            easing: false,
+        };
+        run.begin(engine)?;
+        Ok(run)
+    }
+
+    /// Begins the picture anew, as rough as is quick.
+    fn begin(&mut self, engine: &Engine) -> Result<(), RenderError> {
+        self.began = Instant::now();
+        self.at_scale(engine, engine.pace.scale(engine.wanted.size))
+    }
+
+    fn at_scale(&mut self, engine: &Engine, scale: u32) -> Result<(), RenderError> {
+        (self.scale, self.spp) = (scale, 0);
+        self.canvas.clear(scaled(engine.wanted.size, scale))?;
+        self.estimator = Estimator::new(&Film::new(0, 0), &engine.wanted.settings);
+        Ok(())
+    }
+
+    /// Whether there is nothing to sample.
+    fn rests(&self, wanted: &Wanted) -> bool {
+        let shown = self.spp > 0 && (self.scale == 1 || wanted.moving);
+        shown && (wanted.paused || self.spp >= wanted.limit)
+    }
+
+    /// How long to wait for something new to be wanted.
+    fn patience(&self, engine: &Engine) -> Option<Duration> {
+        match (self.rests(&engine.wanted), self.easing) {
+            (false, _) => Some(Duration::ZERO),
+            (true, true) => Some(STEP),
+            (true, false) => None,
+        }
+    }
+
+    /// One turn: a frame of what is wanted, or nothing if it rests.
+    fn turn(&mut self, engine: &mut Engine, before: &Wanted) -> Result<(), RenderError> {
+        let wanted = &engine.wanted;
+        if before.begins_anew(wanted) {
+            self.begin(engine)?;
+        } else if self.scale > 1 && self.spp > 0 && !wanted.moving {
+            self.at_scale(engine, finer(self.scale))?;
+        }
+        let developed_anew = before.look != wanted.look || before.layer != wanted.layer || self.easing;
+        if before.look != wanted.look {
+            engine.show.look(wanted.look);
+        }
+        if self.rests(wanted) {
+            if developed_anew {
+                self.show(engine, 0.0)?;
+            }
+            return self.save(engine);
+        }
+        self.pass(engine)?;
+        self.save(engine)
+    }
+
+    /// Takes samples and shows them, unless something interrupts.
+    fn pass(&mut self, engine: &mut Engine) -> Result<(), RenderError> {
+        let wanted = &engine.wanted;
+        let size = scaled(wanted.size, self.scale);
+        let pixels = u64::from(size[0]) * u64::from(size[1]);
+        let count = if self.scale > 1 { 1 } else { wanted.samples_per_frame.max(1) };
+        let count = count.min(wanted.limit.max(1) - self.spp);
+        self.rough += u32::from(self.scale > 1);
+        let view = engine.view(if self.scale > 1 { self.rough } else { 0 });
+        let began = Instant::now();
+        let done = self.canvas.add(&view, self.spp..self.spp + count, &Interrupt(&engine.shared))?;
+        let seconds = began.elapsed().as_secs_f64();
+        if done.samples < pixels * u64::from(count) {
+            // Uneven: what interrupted it begins anew, or lets go of all of it.
+            return self.at_scale(engine, self.scale);
+        }
+        engine.pace.learn(done.samples, seconds);
+        self.spp += count;
+        self.stats = FrameStats {
+            device: self.backend.device(),
+            samples: done.samples,
+            rays: done.rays,
+            passes: self.passes_since(),
+            memory: self.backend.memory() + self.canvas.bytes(),
+            error: self.stats.error.filter(|_| self.spp > count),
+            scale: self.scale,
+            ..FrameStats::default()
+        };
+        if self.scale == 1 && self.spp.is_power_of_two() && self.spp >= LEAST_FOR_ERROR {
+            self.stats.error = self.estimator.look(self.canvas.film()?, self.spp);
+        }
+        self.show(engine, seconds)
+    }
+
+    /// What the passes of the device took since the last frame.
+    fn passes_since(&mut self) -> Vec<PassTime> {
+        let now = self.backend.pass_times();
+        let since = |t: &PassTime| {
+            let last = self.passes.iter().find(|l| l.name == t.name);
+            let (count, ms) = last.map_or((0, 0.0), |l| (l.count, l.total_ms));
+            PassTime { name: t.name.clone(), count: t.count - count, total_ms: t.total_ms - ms }
+        };
+        let passes = now.iter().map(since).filter(|t| t.count > 0).collect();
+        self.passes = now;
+        passes
+    }
+
+    /// Sends what there is to be shown.
+    fn show(&mut self, engine: &Engine, seconds: f64) -> Result<(), RenderError> {
+        let wanted = &engine.wanted;
+        let stats = FrameStats {
+            spp: self.spp,
+            seconds,
+            since: self.began.elapsed().as_secs_f64(),
+            done: self.rests(wanted),
+            ..self.stats.clone()
+        };
+        let frame = |size, rgba, stats| Frame { size, rgba, number: engine.number, stats };
+        self.easing = false;
+        if wanted.layer != Layer::Picture {
+            engine.show.blank();
+            let film = self.canvas.film()?;
+            let stats = FrameStats { non_finite: film.non_finite_count(), ..stats };
+            let rgba = layers::layer(film, wanted.layer);
+            engine.sink.frame(frame([film.width(), film.height()], rgba, stats));
+            return Ok(());
+        }
+        if let Some((rgba, exposure)) = self.developed(wanted)? {
+            engine.show.blank();
+            let stats = FrameStats { exposure_ev: exposure.log2(), ..stats };
+            engine.sink.frame(frame(scaled(wanted.size, self.scale), rgba, stats));
+            return Ok(());
+        }
+        let film = self.canvas.film()?;
+        let stats = FrameStats { non_finite: film.non_finite_count(), ..stats };
+        let negative = Negative::new(film, wanted.look.look.transparent);
+        engine.show.shot(Shot { negative, number: engine.number, stats });
+        Ok(())
+    }
+
+    /// The picture as the device develops it, with the factor of its exposure.
+    fn developed(&mut self, wanted: &Wanted) -> Result<Option<(Vec<u8>, f32)>, RenderError> {
+        let eased = wanted.look.eased && is_automatic(&wanted.look.look);
+        let share = match self.exposed {
+            Some((_, at)) if eased => ease_share(at.elapsed().as_secs_f32(), super::show::EYE),
+            _ => 1.0,
+        };
+        let look = wanted.look;
+        let Some(done) = self.canvas.develop(&look.look, offset(&look), share)? else { return Ok(None) };
+        let last = self.exposed.replace((done.factor, Instant::now()));
+        self.easing = eased && last.is_some_and(|(f, _)| (done.factor / f).log2().abs() > ARRIVED * share);
+        Ok(Some((done.rgba, done.factor)))
+    }
+
+    /// Writes what is to be saved, once there is a whole picture.
+    #[cfg(feature = "files")]
+    fn save(&mut self, engine: &Engine) -> Result<(), RenderError> {
+        if self.scale > 1 || self.spp == 0 {
+            return Ok(());
+        }
+        let paths = std::mem::take(&mut engine.shared.state().saves);
+        for path in paths {
+            let film = self.canvas.film()?;
+            let look = engine.look_of(film);
+            engine.sink.event(match crate::output::save(film, &look, &path) {
+                Ok(()) => Event::Saved(path),
+                Err(e) => Event::Failed(e.to_string()),
+            });
+        }
+        Ok(())
+    }
+
+    #[cfg(not(feature = "files"))]
+    fn save(&mut self, _: &Engine) -> Result<(), RenderError> {
+        Ok(())
+    }
+}
+
+impl Engine {
+    /// What is rendered.
+    fn view(&self, frame: u32) -> View {
+        let object_colors = self.wanted.layer == Layer::Objects;
+        let settings = RenderSettings { object_colors, ..self.wanted.settings };
+        View { camera: self.wanted.camera, settings, frame }
+    }
+
+    /// The look with its exposure as it is shown once it has arrived.
+    #[cfg(feature = "files")]
+    fn look_of(&self, film: &Film) -> crate::Look {
+        use lumbre_core::color::Exposure;
+        let look = self.wanted.look;
+        let target = look.look.exposure_factor(film) * offset(&look);
+        crate::Look { exposure: Exposure::Ev(target.log2()), ..look.look }
+    }
+}
+
+impl super::State {
+    /// Whether a picture waits to be written.
+    fn saving(&self) -> bool {
+        #[cfg(feature = "files")]
+        return !self.saves.is_empty();
+        #[cfg(not(feature = "files"))]
+        false
+    }
+}

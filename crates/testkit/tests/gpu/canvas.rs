@@ -1,0 +1,96 @@
+//! Pictures that grow on the device: the same sums as those of a render, developed as the host develops them.
+
+use crate::common::compile;
+use crate::scenes::{lamps, lamps_view};
+use lumbre::look::Look;
+use lumbre::session::{Event, Frame, FrameSink, Layer, Session, ViewLook, Wanted};
+use lumbre::{Backend, Device, GpuChoice, GpuOptions, output};
+use lumbre_core::Film;
+use lumbre_core::color::Exposure;
+use lumbre_testkit::gpu;
+use lumbre_vulkan::{SceneOptions, VulkanBackend};
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+/// Largest difference of colours, and whether the picture is opaque.
+fn differ(rgba: &[u8], rgb: &[u8]) -> u8 {
+    assert_eq!(rgba.len() / 4, rgb.len() / 3);
+    assert!(rgba.iter().skip(3).step_by(4).all(|a| *a == 255));
+    let pairs = rgba.chunks_exact(4).zip(rgb.chunks_exact(3));
+    pairs.flat_map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])).collect::<Vec<_>>()).max().unwrap()
+}
+
+#[test]
+fn a_canvas_holds_what_a_render_brings() {
+    let Some(gpu) = gpu() else { return };
+    let vulkan = VulkanBackend::new(&gpu, &compile(&lamps()), SceneOptions::default()).unwrap();
+    let backend: &dyn Backend = &vulkan;
+    let mut canvas = backend.canvas().unwrap();
+    // Rough, fine, rough again.
+    for size in [[12, 9], [48, 36], [24, 18]] {
+        let view = lamps_view(4.0 / 3.0);
+        canvas.clear(size).unwrap();
+        canvas.add(&view, 0..2, &()).unwrap();
+        canvas.add(&view, 2..3, &()).unwrap();
+        let mut film = Film::new(size[0], size[1]);
+        backend.render(&view, 0..3, &mut film, &()).unwrap();
+        assert!(*canvas.film().unwrap() == film, "{size:?}");
+        let look = Look { vignette: 0.3, ..Look::default() };
+        let shown = canvas.develop(&look, 1.0, 1.0).unwrap().expect("the device develops");
+        assert!(differ(&shown.rgba, &output::develop(&film, &look).bytes) <= 1);
+        // An offset of an automatic exposure, and half of the way to it.
+        let brighter = canvas.develop(&look, 4.0, 0.5).unwrap().unwrap();
+        assert!((brighter.factor / shown.factor - 2.0).abs() < 1e-3, "{} {}", brighter.factor, shown.factor);
+        let look = Look { exposure: Exposure::Ev(brighter.factor.log2()), ..look };
+        assert!(differ(&brighter.rgba, &output::develop(&film, &look).bytes) <= 1);
+    }
+}
+
+/// Passes frames on.
+struct Pipe(Mutex<Sender<Frame>>);
+
+impl FrameSink for Pipe {
+    fn frame(&self, frame: Frame) {
+        let _ = self.0.lock().unwrap().send(frame);
+    }
+    fn event(&self, event: Event) {
+        assert!(!matches!(event, Event::Failed(_)), "{event:?}");
+    }
+}
+
+#[test]
+fn a_session_on_a_gpu_draws_what_render_draws() {
+    let Some(gpu) = gpu() else { return };
+    let size = [64, 48];
+    let view = lamps_view(4.0 / 3.0);
+    let look = Look { exposure: Exposure::Ev(-1.0), ..Look::default() };
+    let wanted = Wanted {
+        scene: Arc::new(lamps()),
+        camera: view.camera,
+        size,
+        settings: view.settings,
+        samples_per_frame: 2,
+        limit: 5,
+        paused: false,
+        restarts: 0,
+        moving: false,
+        look: ViewLook { look, ..ViewLook::default() },
+        layer: Layer::Picture,
+        device: Device::Gpu(GpuChoice::Index(gpu.adapter().index)),
+    };
+    let (to, frames) = channel();
+    let _session = Session::start(wanted, GpuOptions::default(), Arc::new(Pipe(Mutex::new(to))));
+    let done = loop {
+        let frame = frames.recv_timeout(Duration::from_secs(300)).expect("frames come");
+        if frame.stats.done {
+            break frame;
+        }
+    };
+    assert_eq!((done.size, done.stats.spp, &done.stats.device), (size, 5, &gpu.adapter().name));
+    assert!(!done.stats.passes.is_empty());
+    let vulkan = VulkanBackend::new(&gpu, &compile(&lamps()), SceneOptions::default()).unwrap();
+    let mut film = Film::new(size[0], size[1]);
+    vulkan.render(&view, 0..5, &mut film, &()).unwrap();
+    assert!(differ(&done.rgba, &output::develop(&film, &look).bytes) <= 1);
+}

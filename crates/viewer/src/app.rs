@@ -1,0 +1,369 @@
+//! The window's contents: takes what came, shows it, does what was asked for, and tells the render thread what is wanted now. Nothing in here
+//! waits: files are opened and scenes are rendered on threads of their own, and how long a step took is measured ([`Meter`]).
+//!
+//! [`Meter`]: crate::meter::Meter
+
+use crate::command::Command;
+use crate::document::Settled;
+use crate::input;
+use crate::open::Opened;
+use crate::panels;
+use crate::picture::{self, Picture};
+use crate::sink::Sink;
+use crate::state::{REST, State};
+use eframe::egui::{self, CentralPanel, Context, Event as Input, Frame, Panel, Rect, Ui, ViewportCommand};
+use lumbre::session::{FrameSink, Session, Wanted};
+use lumbre::{Device, GpuOptions};
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+/// What renders: a [`Session`], or what stands in for it in tests.
+pub trait Renders {
+    /// Says what is wanted, and returns its number.
+    fn set(&self, wanted: Wanted) -> u64;
+    /// Asks what stands at a place of the view, 0 to 1 along each axis.
+    fn pick(&self, at: [f32; 2]);
+    /// Writes the picture.
+    fn save(&self, path: PathBuf);
+}
+
+impl Renders for Session {
+    fn set(&self, wanted: Wanted) -> u64 {
+        Session::set(self, wanted)
+    }
+    fn pick(&self, at: [f32; 2]) {
+        Session::pick(self, at);
+    }
+    fn save(&self, path: PathBuf) {
+        Session::save(self, path);
+    }
+}
+
+/// Begins to render.
+pub type Start = Box<dyn Fn(Wanted, Arc<dyn FrameSink>) -> Box<dyn Renders>>;
+
+/// A session of the library.
+pub fn session(gpu: GpuOptions) -> Start {
+    Box::new(move |wanted, sink| Box::new(Session::start(wanted, gpu, sink)))
+}
+
+/// The contents of the window.
+pub struct App {
+    /// What the interface holds.
+    pub state: State,
+    picture: Picture,
+    sink: Arc<Sink>,
+    start: Start,
+    session: Option<Box<dyn Renders>>,
+    /// What the session was told last.
+    told: Option<Wanted>,
+    /// What it was told, with the number and the time, until a frame shows it.
+    sent: VecDeque<(u64, Instant)>,
+    devices: Option<Receiver<Vec<(String, Device)>>>,
+    title: String,
+    /// Whether this window waits for the display, and whether it is closed to be opened in the other way.
+    vsync: bool,
+    reopens: bool,
+}
+
+impl App {
+    /// A window that renders by `start`.
+    pub fn new(state: State, start: Start) -> Self {
+        App {
+            state,
+            picture: Picture::default(),
+            sink: Arc::default(),
+            start,
+            session: None,
+            told: None,
+            sent: VecDeque::new(),
+            devices: None,
+            title: String::new(),
+            vsync: true,
+            reopens: false,
+        }
+    }
+
+    /// Belongs to a window from now on.
+    pub fn enter(&mut self, window: &Context) {
+        crate::theme::set(window);
+        self.sink.wake(window);
+        self.state.loader.wake(window);
+        // Those of the last window are gone with it.
+        self.picture = Picture::default();
+        self.title.clear();
+        self.told = None;
+        (self.vsync, self.reopens) = (self.state.running.vsync, false);
+    }
+
+    /// Whether the window was closed to be opened anew in another way.
+    pub fn reopens(&self) -> bool {
+        self.reopens
+    }
+
+    /// Looks for the devices of this machine, which takes a moment.
+    pub fn look_for_devices(&mut self) {
+        let (send, receive) = channel();
+        let sink = self.sink.clone();
+        let look = move || {
+            let found = lumbre::devices().list.into_iter().filter(|d| d.lacks.is_empty());
+            let _ = send.send(found.map(|d| (d.name, d.device)).collect());
+            sink.tell();
+        };
+        if std::thread::Builder::new().name("devices".into()).spawn(look).is_ok() {
+            self.devices = Some(receive);
+        }
+    }
+
+    /// Takes what came from other threads. Also for a window that is hidden.
+    pub fn receive(&mut self, window: &Context) {
+        let now = Instant::now();
+        let news = self.sink.take();
+        news.made.iter().for_each(|made| self.state.meter.made(made, now));
+        if let Some(frame) = news.frame {
+            self.picture.set(window, &frame);
+            self.state.meter.shown(now);
+            self.answered(frame.number, now);
+            self.state.stats = frame.stats;
+        }
+        news.events.into_iter().for_each(|event| self.state.happened(event));
+        for opened in self.state.loader.take() {
+            self.opened(opened, window);
+        }
+        self.state.look_at_file();
+        if let Some(found) = self.devices.as_ref().and_then(|d| d.try_recv().ok()) {
+            self.state.devices = found;
+            self.devices = None;
+        }
+        self.state.meter.tick(now);
+    }
+
+    /// How long it took from a wish to the first frame that has it.
+    fn answered(&mut self, number: u64, now: Instant) {
+        while self.sent.front().is_some_and(|(sent, _)| *sent <= number) {
+            if let Some((_, at)) = self.sent.pop_front() {
+                self.state.meter.answered(now.saturating_duration_since(at));
+            }
+        }
+    }
+
+    fn opened(&mut self, opened: Opened, window: &Context) {
+        let state = &mut self.state;
+        match opened {
+            Opened::Scene(opened) => {
+                state.open(*opened, window);
+                if let Some(edits) = state.first_edits.take() {
+                    state.loader.open(&edits);
+                }
+            }
+            Opened::Failed { path, reason } => {
+                state.recent.remove(&path);
+                state.log.error(reason);
+                // A sky that cannot be read.
+                if let Some(document) = &mut state.document
+                    && document.edits.sky_file().is_some_and(|file| file == path)
+                {
+                    document.give_up();
+                }
+            }
+            Opened::Environment { path, map, notes } => {
+                notes.into_iter().for_each(|note| state.log.note(note));
+                state.use_environment(path, map);
+            }
+            Opened::Edits { path, edits } => match &mut state.document {
+                Some(document) => {
+                    document.replace_edits(*edits);
+                    state.log.note(format!("{} opened", path.display()));
+                    state.edits_file = Some(path);
+                    state.stir();
+                }
+                None => state.log.error("edits belong to a scene: open that first"),
+            },
+        }
+    }
+
+    /// One step of the interface: shows everything, and does what was asked for.
+    pub fn show(&mut self, ui: &mut Ui) {
+        let began = Instant::now();
+        let window = ui.ctx().clone();
+        let mut commands = self.keys(&window);
+        let rect = self.layout(ui, &mut commands);
+        self.windows(&window, rect, &mut commands);
+        let dropped =
+            window.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect::<Vec<_>>());
+        self.state.dropped(dropped);
+        commands.into_iter().for_each(|command| self.state.obey(command, &window));
+        self.settle(&window);
+        self.tell(&window);
+        if self.state.running.vsync != self.vsync && !self.reopens {
+            self.reopens = true;
+            window.send_viewport_cmd(ViewportCommand::Close);
+        }
+        self.state.meter.updated(began.elapsed());
+    }
+
+    fn keys(&self, window: &Context) -> Vec<Command> {
+        if self.state.dialog.is_some() || window.text_edit_focused() {
+            return Vec::new();
+        }
+        let pressed = window.input(|i| {
+            let pressed = i.events.iter().filter_map(|event| match event {
+                Input::Key { key, pressed: true, repeat, modifiers, .. } => Some((*key, *modifiers, *repeat)),
+                _ => None,
+            });
+            pressed.collect::<Vec<_>>()
+        });
+        let action = |(key, with, repeat): (egui::Key, egui::Modifiers, bool)| {
+            let action = input::action(key, with)?;
+            // Brightness goes on while its key is held; all else happens once.
+            let steady = matches!(action, input::Action::Brighter | input::Action::Darker);
+            (!repeat || steady).then_some(Command::Do(action))
+        };
+        pressed.into_iter().filter_map(action).collect()
+    }
+
+    /// The panels and the picture; where the picture is.
+    fn layout(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) -> Rect {
+        let state = &mut self.state;
+        if !state.shown.bare {
+            Panel::top("menu").show(ui, |ui| panels::menu(ui, state, commands));
+            Panel::bottom("status").show(ui, |ui| panels::status(ui, state));
+            Panel::right("side")
+                .default_size(SIDE)
+                .min_size(240.0)
+                .show(ui, |ui| panels::side_bar(ui, state, commands));
+        }
+        let picture = &mut self.picture;
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| picture.show(ui, state)).inner
+    }
+
+    /// What floats over the rest.
+    fn windows(&mut self, window: &Context, rect: Rect, commands: &mut Vec<Command>) {
+        let state = &mut self.state;
+        if state.document.is_none() || !self.picture.is_there() {
+            panels::welcome(window, state, rect, commands);
+        }
+        panels::banner(window, state, rect, commands);
+        if state.shown.help {
+            state.shown.help = panels::help(window);
+        }
+        if let Some(mut dialog) = state.dialog.take() {
+            match dialog.show(window, state.recent.paths()) {
+                None => state.dialog = Some(dialog),
+                Some(choice) => {
+                    let save = state.chosen(choice);
+                    if let (Some(path), Some(session)) = (save, &self.session) {
+                        session.save(path);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Flies, makes the scene of the edits, notes steps for undo.
+    fn settle(&mut self, window: &Context) {
+        let busy = window.input(|i| i.pointer.any_down()) || window.text_edit_focused();
+        let state = &mut self.state;
+        if state.dialog.is_none() && !window.text_edit_focused() {
+            picture::flown(window, state);
+        }
+        let Some(document) = &mut state.document else { return };
+        match document.settle() {
+            Settled::Same => {}
+            Settled::Changed if busy => state.stir(),
+            Settled::Changed => {}
+            Settled::Needs(file) => {
+                if state.loader.under_way() != Some(&*file) {
+                    state.loader.open_environment(&file);
+                }
+            }
+            Settled::Refused(reason) => state.log.error(reason),
+        }
+        let moving = state.is_moving();
+        if let Some(document) = &mut state.document {
+            document.note_steps(busy || moving);
+        }
+        if state.came_to_rest() && state.focuses_by_itself() {
+            state.picks.ask([0.5; 2], crate::picks::Why::AutoFocus);
+        }
+        if moving {
+            window.request_repaint_after(REST + Duration::from_millis(10));
+        }
+    }
+
+    /// Tells the session what is wanted, if that is something else than before.
+    fn tell(&mut self, window: &Context) {
+        let title = match &self.state.document {
+            Some(document) => {
+                format!("{} - Lumbre", document.path.file_name().unwrap_or_default().to_string_lossy())
+            }
+            None => "Lumbre".to_owned(),
+        };
+        if title != self.title {
+            window.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+        let Some(mut wanted) = self.state.wanted() else { return };
+        wanted.paused |= window.input(|i| i.viewport().minimized).unwrap_or(false);
+        if self.told.as_ref().is_some_and(|told| same(told, &wanted)) {
+            return self.ask();
+        }
+        match &self.session {
+            None => self.session = Some((self.start)(wanted.clone(), self.sink.clone())),
+            Some(session) => {
+                let number = session.set(wanted.clone());
+                if self.sent.len() < 1000 {
+                    self.sent.push_back((number, Instant::now()));
+                }
+            }
+        }
+        self.told = Some(wanted);
+        self.ask();
+    }
+
+    /// Asks what stands where the mouse clicked.
+    fn ask(&mut self) {
+        if let Some(session) = &self.session
+            && let Some(at) = self.state.picks.next()
+        {
+            session.pick(at);
+        }
+    }
+}
+
+/// Width of the side bar, points.
+const SIDE: f32 = 340.0;
+
+/// Whether two wishes are one.
+fn same(a: &Wanted, b: &Wanted) -> bool {
+    Arc::ptr_eq(&a.scene, &b.scene)
+        && a.camera == b.camera
+        && a.size == b.size
+        && a.settings == b.settings
+        && (a.samples_per_frame, a.limit, a.paused, a.restarts, a.moving)
+            == (b.samples_per_frame, b.limit, b.paused, b.restarts, b.moving)
+        && a.look == b.look
+        && a.layer == b.layer
+        && a.device == b.device
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, window: &Context, _: &mut eframe::Frame) {
+        self.receive(window);
+        let hidden = window.input(|i| i.viewport().minimized).unwrap_or(false);
+        if hidden {
+            self.tell(window);
+        }
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+        self.show(ui);
+    }
+
+    fn clear_color(&self, _: &egui::Visuals) -> [f32; 4] {
+        [0.07, 0.07, 0.07, 1.0]
+    }
+}

@@ -1,0 +1,173 @@
+//! The scene that is open, what was changed of it, and the scene that comes of both. The interface changes [`Document::edits`] as it likes;
+//! [`Document::settle`] makes the scene anew where that asks for it, and only then: another tone curve leaves the scene, and so the
+//! picture, as it is.
+
+use crate::history::History;
+use crate::open::OpenedScene;
+use crate::places::{MeshBounds, Places};
+use lumbre::camera::camera_names;
+use lumbre::edits::{Changes, Edits, Item};
+use lumbre::scene::{EnvironmentMap, Scene};
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A scene that is open.
+pub struct Document {
+    /// Its file.
+    pub path: PathBuf,
+    /// As the file says.
+    pub base: Arc<Scene>,
+    /// What was changed.
+    pub edits: Edits,
+    /// As it is drawn.
+    pub scene: Arc<Scene>,
+    /// Where its things are.
+    pub places: Places,
+    /// Names of its cameras.
+    pub cameras: Vec<String>,
+    /// Steps to take back. Of the camera there are others: looking around is no edit.
+    pub history: History<Edits>,
+    /// Where the camera was.
+    pub views: History<Changes>,
+    meshes: MeshBounds,
+    /// The part of the edits that `scene` shows.
+    shown: Edits,
+    maps: HashMap<PathBuf, Arc<EnvironmentMap>>,
+}
+
+/// What [`Document::settle`] finds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Settled {
+    /// The scene is as it was.
+    Same,
+    /// The scene is another one.
+    Changed,
+    /// The sky is in a file that is not read yet; the scene is as it was until [`Document::know`] brings it.
+    Needs(PathBuf),
+    /// The edits do not fit the scene, one line; they are again what they were.
+    Refused(String),
+}
+
+impl Document {
+    /// A scene that nobody has changed.
+    pub fn new(opened: OpenedScene) -> Self {
+        let places = Places::of(&opened.scene, &opened.meshes);
+        let name = opened.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let mut edits = Edits::default();
+        edits.scene = name;
+        Document {
+            path: opened.path,
+            cameras: camera_names(&opened.scene),
+            scene: opened.scene.clone(),
+            base: opened.scene,
+            history: History::new(undoable(&edits)),
+            views: History::new(edits.camera.clone()),
+            shown: Edits::default(),
+            edits,
+            places,
+            meshes: opened.meshes,
+            maps: HashMap::new(),
+        }
+    }
+
+    /// The same after its file has changed: edits, steps and views stay.
+    pub fn reloaded(self, opened: OpenedScene) -> Self {
+        let fresh = Document::new(opened);
+        Document { edits: self.edits, history: self.history, views: self.views, maps: self.maps, ..fresh }
+    }
+
+    /// Opens edits in the place of those there are. They can be undone.
+    pub fn replace_edits(&mut self, edits: Edits) {
+        let scene = std::mem::take(&mut self.edits.scene);
+        self.edits = edits;
+        self.edits.scene = scene;
+    }
+
+    /// Brings a map that was read from a file.
+    pub fn know(&mut self, path: PathBuf, map: Arc<EnvironmentMap>) {
+        self.maps.insert(path, map);
+    }
+
+    /// Makes the scene anew where the edits ask for it.
+    pub fn settle(&mut self) -> Settled {
+        let wanted = self.scene_part();
+        if wanted == self.shown {
+            return Settled::Same;
+        }
+        let file = wanted.sky_file();
+        let map = file.as_ref().and_then(|file| self.maps.get(file));
+        if let (Some(file), None) = (&file, map) {
+            return Settled::Needs(file.clone());
+        }
+        match wanted.apply_with(&self.base, map.map(|m| &**m)) {
+            Ok(scene) => {
+                self.places = Places::of(&scene, &self.meshes);
+                self.scene = Arc::new(scene);
+                self.shown = wanted;
+                Settled::Changed
+            }
+            Err(e) => {
+                self.give_up();
+                Settled::Refused(e.to_string())
+            }
+        }
+    }
+
+    /// Takes back what of the edits is not shown, as where a file cannot be read: to the last step if that is shown, else all of it.
+    pub fn give_up(&mut self) {
+        let step = self.history.now().clone();
+        let back = if part_of(&step, &self.base) == self.shown { step } else { self.shown.clone() };
+        let scene = self.edits.scene.clone();
+        self.set_undoable(back);
+        self.edits.scene = scene;
+    }
+
+    /// What of the edits decides the scene.
+    fn scene_part(&self) -> Edits {
+        part_of(&self.edits, &self.base)
+    }
+
+    /// Notes a step, unless something is still being dragged.
+    pub fn note_steps(&mut self, busy: bool) {
+        self.history.observe(&undoable(&self.edits), busy);
+        self.views.observe(&self.edits.camera, busy);
+    }
+
+    /// Takes the last step back. Whether there was one.
+    pub fn undo(&mut self) -> bool {
+        let before = self.history.undo();
+        before.map(|edits| self.set_undoable(edits)).is_some()
+    }
+
+    /// Makes it again.
+    pub fn redo(&mut self) -> bool {
+        let after = self.history.redo();
+        after.map(|edits| self.set_undoable(edits)).is_some()
+    }
+
+    fn set_undoable(&mut self, edits: Edits) {
+        let camera = std::mem::take(&mut self.edits.camera);
+        self.edits = edits;
+        self.edits.camera = camera;
+    }
+}
+
+/// The edits without the camera.
+fn undoable(edits: &Edits) -> Edits {
+    let mut edits = edits.clone();
+    edits.camera = Changes::default();
+    edits
+}
+
+fn part_of(edits: &Edits, base: &Scene) -> Edits {
+    let mut part = undoable(edits);
+    part.scene.clear();
+    part.bookmarks.clear();
+    for item in [Item::Settings, Item::Look] {
+        // These are there in every scene.
+        let reset = part.reset(base, item);
+        debug_assert!(reset.is_ok(), "{reset:?}");
+    }
+    part
+}

@@ -1,0 +1,88 @@
+//! Questions about what stands at a place of the picture, and what they were for. One is asked at a time, so that an answer cannot be taken
+//! for that of another.
+
+use std::collections::VecDeque;
+
+/// What the answer is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// To pick what is there.
+    Select,
+    /// To pick it and bring it into view.
+    Frame,
+    /// To focus on it.
+    Focus,
+    /// To focus on the centre, which has changed.
+    AutoFocus,
+}
+
+/// The questions.
+#[derive(Clone, Debug, Default)]
+pub struct Picks {
+    waiting: VecDeque<([f32; 2], Why)>,
+    asked: Option<Why>,
+}
+
+/// More than this wait only where nothing answers.
+const MOST: usize = 8;
+
+impl Picks {
+    /// Puts a question. Of automatic focus the last one is enough.
+    pub fn ask(&mut self, at: [f32; 2], why: Why) {
+        if why == Why::AutoFocus {
+            self.waiting.retain(|(_, other)| *other != Why::AutoFocus);
+        }
+        if self.waiting.len() < MOST {
+            self.waiting.push_back((at, why));
+        }
+    }
+
+    /// The next question to be asked, if the last one was answered.
+    pub fn next(&mut self) -> Option<[f32; 2]> {
+        if self.asked.is_some() {
+            return None;
+        }
+        let (at, why) = self.waiting.pop_front()?;
+        self.asked = Some(why);
+        Some(at)
+    }
+
+    /// An answer came: what it is for.
+    pub fn answered(&mut self) -> Option<Why> {
+        self.asked.take()
+    }
+
+    /// Forgets all: another scene is open. An answer that is under way is still waited for and then has no meaning.
+    pub fn clear(&mut self) {
+        self.waiting.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_question_at_a_time() {
+        let mut picks = Picks::default();
+        picks.ask([0.1, 0.1], Why::Select);
+        picks.ask([0.2, 0.2], Why::Frame);
+        assert_eq!(picks.next(), Some([0.1, 0.1]));
+        assert_eq!(picks.next(), None, "the first has no answer yet");
+        assert_eq!(picks.answered(), Some(Why::Select));
+        assert_eq!(picks.next(), Some([0.2, 0.2]));
+        assert_eq!(picks.answered(), Some(Why::Frame));
+        assert_eq!((picks.next(), picks.answered()), (None, None));
+    }
+
+    #[test]
+    fn automatic_focus_asks_once() {
+        let mut picks = Picks::default();
+        for i in 0..100 {
+            picks.ask([i as f32 * 0.01, 0.5], Why::AutoFocus);
+        }
+        assert_eq!(picks.next(), Some([0.99, 0.5]));
+        picks.answered();
+        assert_eq!(picks.next(), None);
+    }
+}

@@ -1,0 +1,162 @@
+//! Opening and saving.
+
+use crate::kit::{Window, asset};
+use eframe::egui::{Key, Modifiers};
+use lumbre::session::Event;
+use std::path::Path;
+use std::sync::Arc;
+
+fn write(folder: &Path, name: &str, text: &str) -> std::path::PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+#[test]
+fn a_broken_scene_leaves_the_good_one_and_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let broken = write(folder.path(), "broken.glb", "glTF and then nothing");
+    let mut window = Window::with("cornell.glb");
+    let (good, told) = (window.fake.wanted().scene, window.fake.count());
+    window.state_mut().loader.open(&broken);
+    window.until("an error", |w| w.state().log.pending().is_some());
+    window.steps(2);
+    assert!(window.shows("broken.glb"), "the error is in view");
+    assert_eq!(window.state().document.as_ref().unwrap().path, asset("cornell.glb"));
+    assert_eq!(window.fake.count(), told, "nothing is begun anew");
+    assert!(Arc::ptr_eq(&good, &window.fake.wanted().scene));
+    window.click_on("Dismiss");
+    assert!(window.state().log.pending().is_none());
+}
+
+#[test]
+fn a_scene_that_cannot_be_prepared_gives_way_to_the_one_before() {
+    let mut window = Window::with("cornell.glb");
+    let good = window.fake.wanted().scene;
+    window.fake.happens(Event::Prepared { device: "Stand-in".into(), seconds: 0.1 });
+    window.steps(1);
+    window.open(&asset("prism.gltf"));
+    window.fake.happens(Event::Preparing("compiling the scene".into()));
+    window.fake.happens(Event::Failed("prism.gltf: material 7 of 3".into()));
+    window.steps(2);
+    assert!(window.shows("material 7 of 3"));
+    assert_eq!(window.state().document.as_ref().unwrap().path, asset("cornell.glb"));
+    assert!(Arc::ptr_eq(&good, &window.fake.wanted().scene));
+}
+
+#[test]
+fn scenes_without_camera_and_without_anything_are_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n";
+    let mut window = Window::empty();
+    window.open(&write(folder.path(), "triangle.obj", triangle));
+    let camera = window.fake.wanted().camera;
+    let towards = (glam::Vec3::new(1.0, 0.5, 0.0) - camera.origin).normalize();
+    assert!(towards.dot(camera.forward) > 0.999, "all of it is in view");
+    let empty = r#"{"asset": {"version": "2.0"}, "scenes": [{"nodes": []}], "scene": 0}"#;
+    window.open(&write(folder.path(), "empty.gltf", empty));
+    assert!(window.fake.wanted().camera.origin.is_finite());
+    window.press(Modifiers::NONE, Key::F);
+    window.press(Modifiers::NONE, Key::Z);
+    window.press(Modifiers::NONE, Key::H);
+    assert!(window.fake.wanted().camera.origin.is_finite());
+}
+
+#[test]
+fn edits_are_saved_opened_and_named_by_a_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("my edits.json");
+    let mut window = Window::with("cornell.glb");
+    window.state_mut().selection.material = Some(lumbre::scene::MaterialId(0));
+    window.unfold("Material");
+    window.set_number("Roughness", 0.125);
+    window.press(Modifiers::NONE, Key::F);
+    window.rest();
+    let wanted = window.fake.wanted();
+    window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    let choice = lumbre_viewer::dialog::Choice::File(lumbre_viewer::dialog::Purpose::SaveEdits, file.clone());
+    assert_eq!(window.state_mut().chosen(choice), None);
+    let line = window.state().command_line().unwrap();
+    assert!(
+        line.starts_with("lumbre render ") && line.contains(&format!("--edits '{}'", file.display())),
+        "{line}"
+    );
+    // Another window, another day.
+    let mut again = Window::with("cornell.glb");
+    again.state_mut().loader.open(&file);
+    again.until("edits", |w| w.state().edits_file.is_some());
+    again.rest();
+    assert_eq!(again.fake.wanted().camera, wanted.camera);
+    assert_eq!(*again.fake.wanted().scene, *wanted.scene);
+    again.press(Modifiers::COMMAND, Key::Z);
+    assert_ne!(*again.fake.wanted().scene, *wanted.scene, "opening edits can be undone");
+}
+
+#[test]
+fn pictures_are_saved_by_the_session() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = Window::with("cornell.glb");
+    window.press(Modifiers::COMMAND, Key::S);
+    assert!(window.shows("Save the picture"));
+    let field = "File";
+    let path = folder.path().join("picture.exr");
+    {
+        use egui_kittest::kittest::Queryable;
+        let field =
+            window.ui.get_all_by_label(field).find(|n| n.value().is_some()).expect("the name of the file");
+        field.focus();
+        field.set_text_value_accesskit(&path.to_string_lossy());
+    }
+    window.steps(2);
+    window.click_on("Save");
+    assert_eq!(window.fake.told(|t| t.saves.clone()), [path]);
+    assert!(window.state().dialog.is_none());
+}
+
+#[test]
+fn an_environment_becomes_the_sky_and_a_missing_one_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x81".to_vec();
+    let sky = folder.path().join("sky.hdr");
+    std::fs::write(&sky, hdr).unwrap();
+    let mut window = Window::with("cornell.glb");
+    let before = window.fake.wanted().scene;
+    window.state_mut().loader.open(&sky);
+    let lit = |w: &Window| {
+        matches!(w.fake.wanted().scene.environment.background, lumbre::scene::Background::Map(_))
+    };
+    window.until("a sky", lit);
+    window.rest();
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.fake.wanted().scene.environment, before.environment);
+    window.press(Modifiers::COMMAND, Key::Y);
+    assert!(lit(&window));
+    let edits = write(
+        folder.path(),
+        "edits.json",
+        r#"{"lumbreEdits": 1, "sky": {"kind": "file", "file": "gone.hdr"}}"#,
+    );
+    window.state_mut().loader.open(&edits);
+    window.until("an error", |w| w.state().log.pending().is_some());
+    window.rest();
+    assert!(lit(&window), "the sky is what it was");
+}
+
+#[test]
+fn a_file_that_changes_is_opened_again_with_the_edits() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "triangle.obj", "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
+    let mut window = Window::empty();
+    window.state_mut().watching = true;
+    window.open(&path);
+    window.press(Modifiers::NONE, Key::Minus);
+    window.rest();
+    let camera = window.fake.wanted().camera;
+    std::thread::sleep(std::time::Duration::from_millis(600));
+    std::fs::write(&path, "v 0 0 0\nv 3 0 0\nv 0 1 0\nv 3 1 0\nf 1 2 3\nf 2 4 3\n").unwrap();
+    let triangles = |w: &Window| w.fake.wanted().scene.meshes[0].primitives[0].indices.len() / 3;
+    window.until("the new file", |w| triangles(w) == 2);
+    window.rest();
+    assert_eq!(window.fake.wanted().camera, camera, "the camera stays");
+    assert!(window.fake.wanted().look.offset_ev < 0.0, "the edits stay");
+}
