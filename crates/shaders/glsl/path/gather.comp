@@ -101,11 +101,10 @@ void set_sums_here(PixelSums sums) {
 // What a path has brought.
 FilmSample sample_of(uint id) {
     vec4 radiance = STATE(STATE_RADIANCE, id);
-    uint asked = path_load_asked(id);
     FilmSample result;
+    uint asked = path_load_asked(id, result.has_hit);
     result.radiance = radiance.xyz + pending_brought(id, asked, 0u) + pending_brought(id, asked, 1u);
     result.alpha = radiance.w;
-    result.has_hit = STATE_WORDS(STATE_NORMAL, id).w != 0u;
     result.normal = vec3(0.0);
     result.albedo = vec3(0.0);
     result.position = vec3(0.0);

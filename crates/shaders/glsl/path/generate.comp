@@ -32,8 +32,5 @@ void main() {
         path_begin_inside(path);
     }
     path_store(id, path);
-    Quads state = push.view.state;
-    // No first hit yet.
-    state.at[STATE_NORMAL * push.view.capacity + id] = uvec4(0u);
     queues.at[id] = id;
 }
