@@ -222,7 +222,7 @@ fn measured(
     eye: &Eye<'_>,
     size: [u32; 2],
 ) -> Result<[Vec<Cell>; 2], Failure> {
-    let view = eye.view(size, args.sampling.settings())?;
+    let view = eye.view(size, args.settings())?;
     let wanted = Wanted {
         scene: Arc::new(eye.scene().clone()),
         camera: view.camera,
