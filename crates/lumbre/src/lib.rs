@@ -62,9 +62,9 @@ pub mod session;
 pub mod targets;
 
 pub use backend::{
-    Backend, Canvas, Developed, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback, Frames,
-    GpuChoice, GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices, prepare, prepare_cpu,
-    prepare_cpu_with,
+    AccelReport, Backend, Canvas, Developed, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback,
+    Frames, GpuChoice, GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices, prepare,
+    prepare_cpu, prepare_cpu_with,
 };
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,
