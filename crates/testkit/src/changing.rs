@@ -281,7 +281,7 @@ impl Random {
     /// A number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         self.0 = hash_combine(self.0, 1);
-        (u64::from(self.0) * n as u64 >> 32) as usize
+        ((u64::from(self.0) * n as u64) >> 32) as usize
     }
     /// A number from 0 to 1.
     pub fn unit(&mut self) -> f32 {

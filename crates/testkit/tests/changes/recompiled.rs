@@ -14,10 +14,9 @@ fn faults(recompile: Recompile<'_>, before: (&Scene, &CompiledScene), after: &Sc
         (Err(found), Err(expected)) if found == expected => vec![],
         (Ok((found, changes)), Ok(expected)) => {
             let (a, b) = (found.scene.sections(), expected.scene.sections());
-            let wrong = |((name, a), (_, b)): (&(&str, &[u8]), &(&str, &[u8]))| {
-                (a != b).then(|| format!("{name} is not what compiling gives"))
-            };
-            let mut faults: Vec<String> = a.iter().zip(&b).filter_map(wrong).collect();
+            let differ = a.iter().zip(&b).filter(|(a, b)| a != b);
+            let mut faults: Vec<String> =
+                differ.map(|((name, _), _)| format!("{name} is not what compiling gives")).collect();
             if found.notes != expected.notes {
                 faults.push(format!("{:?} are not the notes {:?}", found.notes, expected.notes));
             }
