@@ -12,7 +12,10 @@ use std::path::Path;
 pub(crate) fn run(args: &ViewArgs) -> Result<Code, Failure> {
     // What can be known to fail is told here, where it was asked for; all else is told in the window.
     args.scene.as_deref().map_or(Ok(()), is_there)?;
-    if let Some(edits) = &args.edits {
+    if let Some(edits) = &args.loading.edits {
+        if args.scene.is_none() {
+            return Err(Failure::usage("--edits: of which scene?"));
+        }
         Edits::read(edits)?;
     }
     if let Some(threads) = args.device.threads {
@@ -22,7 +25,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Code, Failure> {
     lumbre_viewer::run(Options {
         scene: args.scene.clone(),
         load: args.loading.options(),
-        edits: args.edits.clone(),
+        edits: args.loading.edits.clone(),
         device: args.device.device.clone(),
         gpu: args.device.options(),
         watch: args.watch,

@@ -29,10 +29,6 @@ pub(crate) struct ViewArgs {
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
 
-    /// Changes to begin with: camera, lights, materials and more, as the window saves them.
-    #[arg(long, value_name = "FILE", requires = "scene")]
-    pub(crate) edits: Option<PathBuf>,
-
     /// Opens the scene again when its file changes.
     #[arg(long)]
     pub(crate) watch: bool,

@@ -19,6 +19,7 @@ use crate::memory::Picture;
 use crate::outputs::Outputs;
 use job::{Job, Prepared};
 use lumbre::core::film::Crop;
+use lumbre::cpu::CpuOptions;
 use lumbre::fingerprint::SceneHash;
 use lumbre::prelude::*;
 use scene::Opened;
@@ -52,12 +53,15 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         let scene = args.output.keeps_sums().then(|| SceneHash::new(&compiled));
         let mut job = Job { args, outputs, view, size, part, scene, sky_added, began };
         if let Some(pixel) = args.replay.pixel {
-            let backend = lumbre::prepare_cpu(compiled)?;
+            let merge = args.loading.edits.is_none();
+            let backend = lumbre::prepare_cpu_with(compiled, CpuOptions { merge })?;
             device::said(&backend, "--pixel always runs there");
             scene::focus(&camera, &backend, &mut job.view)?;
             return replay::run(&job, &backend, pixel);
         }
         let start = Instant::now();
+        // As a viewer draws it, to the bit: meshes that are merged are rounded a little differently.
+        let device = if args.loading.edits.is_some() { device.editable() } else { device };
         let backend = device::prepare(device, compiled)?;
         let build_seconds = start.elapsed().as_secs_f64();
         scene::focus(&camera, &*backend, &mut job.view)?;
