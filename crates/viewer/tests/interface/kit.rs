@@ -227,7 +227,7 @@ impl Window {
     pub(crate) fn unfold(&mut self, name: &str) {
         let header = self.ui.get_all_by_label(name).last().expect("a panel of this name");
         header.scroll_to_me();
-        self.steps(2);
+        self.steps(40);
         self.ui.get_all_by_label(name).last().expect("a panel of this name").click();
         self.steps(30);
     }
