@@ -232,8 +232,17 @@ impl Window {
         self.steps(30);
     }
 
+    /// Scrolls to the field of a row.
+    pub(crate) fn into_view(&mut self, name: &str) -> Rect {
+        let field = |w: &Self| w.ui.get_all_by_label(name).find(|n| n.value().is_some()).map(|n| n.rect());
+        self.ui.get_all_by_label(name).find(|n| n.value().is_some()).expect("a field of this name").scroll_to_me();
+        self.steps(40);
+        field(self).expect("a field of this name")
+    }
+
     /// Sets a number by the name of its row.
     pub(crate) fn set_number(&mut self, name: &str, value: f64) {
+        self.into_view(name);
         let field =
             self.ui.get_all_by_label(name).find(|n| n.value().is_some()).expect("a field of this name");
         field.set_value_accesskit(value);

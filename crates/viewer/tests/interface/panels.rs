@@ -43,7 +43,7 @@ fn every_panel_unfolds() {
     for panel in ["Camera", "Lights", "Scene", "Material", "Log"] {
         window.unfold(panel);
     }
-    for text in ["Flying speed", "Elevation", "search by name", "pick one", "opened in"] {
+    for text in ["Flying speed", "Sky and environment", "search by name", "pick one", "opened in"] {
         assert!(window.shows(text) || text == "search by name", "{text}");
     }
 }
