@@ -6,6 +6,7 @@ mod compare;
 mod console;
 mod device;
 mod devices;
+mod edited;
 mod exit;
 mod flags;
 mod generate;
@@ -25,8 +26,10 @@ use exit::{Code, Failure};
 use flags::{Cli, Command};
 use std::panic::{self, PanicHookInfo};
 use std::process::ExitCode;
+use std::time::Instant;
 
 fn main() -> ExitCode {
+    let started = Instant::now();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(e) => {
@@ -36,17 +39,17 @@ fn main() -> ExitCode {
         }
     };
     panic::set_hook(Box::new(report_bug));
-    guarded(|| run(cli.command)).into()
+    guarded(|| run(cli.command, started)).into()
 }
 
-fn run(command: Command) -> Result<Code, Failure> {
+fn run(command: Command, started: Instant) -> Result<Code, Failure> {
     match command {
         Command::Render(mut args) => render::run(&mut args),
         #[cfg(feature = "viewer")]
         Command::View(args) => view::run(&args),
-        Command::Info(args) => info::run(&args),
+        Command::Info(mut args) => info::run(&mut args),
         Command::Devices(args) => devices::run(&args),
-        Command::Bench(args) => bench::run(&args),
+        Command::Bench(mut args) => bench::run(&mut args, started),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man(args) => generate::man(&args),

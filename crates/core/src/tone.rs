@@ -159,11 +159,11 @@ pub fn vignette(strength: f32, [x, y]: [f32; 2]) -> f32 {
 /// Most aberration, per cent, either way.
 pub const MAX_ABERRATION: f32 = 50.0;
 
-/// The factor by which one band is enlarged about the centre of the picture: red by 1 + a, blue by 1 - a, green stays.
-/// `aberration` is in per cent of the distance from the centre.
-pub fn aberration_scales(aberration: f32) -> [f32; 3] {
+/// One over the factor by which each band is enlarged about the centre of the picture: red by 1 + a, blue by 1 - a, green stays.
+/// `aberration` is in per cent of the distance from the centre. (A quotient at each pixel would not be the same on every GPU.)
+pub fn aberration_shrinks(aberration: f32) -> [f32; 3] {
     let a = 0.01 * aberration;
-    [1.0 + a, 1.0, 1.0 - a]
+    [1.0 / (1.0 + a), 1.0, 1.0 / (1.0 - a)]
 }
 
 #[cfg(test)]
@@ -274,8 +274,8 @@ mod tests {
         assert!((vignette(0.5, [0.6, 0.8]) - 0.5).abs() < 1e-6, "a corner keeps 1 - strength");
         assert!((vignette(0.5, [0.3, 0.4]) - 0.875).abs() < 1e-6, "half way a quarter of the loss");
         assert_eq!(vignette(1.0, [0.7, 0.8]), 0.0, "no negative light");
-        assert_eq!(aberration_scales(0.0), [1.0; 3]);
-        let [r, g, b] = aberration_scales(2.0);
-        assert!((r - 1.02).abs() < 1e-6 && g == 1.0 && (b - 0.98).abs() < 1e-6);
+        assert_eq!(aberration_shrinks(0.0), [1.0; 3]);
+        let [r, g, b] = aberration_shrinks(2.0);
+        assert!((r * 1.02 - 1.0).abs() < 1e-6 && g == 1.0 && (b * 0.98 - 1.0).abs() < 1e-6);
     }
 }

@@ -62,9 +62,9 @@ pub mod session;
 pub mod targets;
 
 pub use backend::{
-    Backend, Canvas, Developed, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback, Frames,
-    GpuChoice, GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices, prepare, prepare_cpu,
-    prepare_cpu_with,
+    AccelReport, Backend, Canvas, Developed, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback,
+    Frames, GpuChoice, GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices, prepare,
+    prepare_cpu, prepare_cpu_with,
 };
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,
@@ -77,7 +77,7 @@ pub use light::{LightKinds, light_kinds};
 pub use look::Look;
 #[cfg(feature = "files")]
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
-pub use lumbre_scene::{CompileError, Compiled, compile};
+pub use lumbre_scene::{CompileError, Compiled, SceneChanges, compile, recompile};
 pub use render::{Watch, render};
 pub use targets::{Ended, Outcome, RenderFailed, SoFar, Targets};
 

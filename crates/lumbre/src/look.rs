@@ -3,7 +3,7 @@
 use lumbre_core::color::Exposure;
 use lumbre_core::film::{Film, PixelSums};
 use lumbre_core::rgb::Rgb;
-use lumbre_core::tone::{ToneCurve, aberration_scales, vignette};
+use lumbre_core::tone::{ToneCurve, aberration_shrinks, vignette};
 use rayon::prelude::*;
 
 /// How a film is developed for a display: lens, exposure, tone curve.
@@ -92,7 +92,7 @@ struct Lens<'a> {
     negative: &'a Negative,
     vignette: f32,
     /// `None`: no aberration, pixels are as they are.
-    scales: Option<[f32; 3]>,
+    shrinks: Option<[f32; 3]>,
     /// From the film's top left corner to the centre of the picture, pixels.
     center: [f32; 2],
     half_diagonal: f32,
@@ -105,7 +105,7 @@ impl<'a> Lens<'a> {
         Lens {
             negative,
             vignette: look.vignette.clamp(0.0, 1.0),
-            scales: (aberration != 0.0).then(|| aberration_scales(aberration)),
+            shrinks: (aberration != 0.0).then(|| aberration_shrinks(aberration)),
             center: [0, 1].map(|i| 0.5 * size[i] - origin[i]),
             half_diagonal: 0.5 * (size[0] * size[0] + size[1] * size[1]).sqrt(),
         }
@@ -119,10 +119,10 @@ impl<'a> Lens<'a> {
 
     fn color(&self, i: usize) -> Rgb {
         let offset = self.offset(i);
-        let color = match self.scales {
+        let color = match self.shrinks {
             None => self.negative.radiance[i],
-            Some(scales) => {
-                let band = |c: usize| self.bilinear(offset, scales[c], |i| self.negative.radiance[i][c]);
+            Some(shrinks) => {
+                let band = |c: usize| self.bilinear(offset, shrinks[c], |i| self.negative.radiance[i][c]);
                 Rgb::new(band(0), band(1), band(2))
             }
         };
@@ -135,20 +135,20 @@ impl<'a> Lens<'a> {
     /// The most that any band has of it, so that fringes are not cut off.
     fn alpha(&self, i: usize) -> f32 {
         let alpha = |i: usize| self.negative.alpha.get(i).copied().unwrap_or(1.0);
-        match self.scales {
+        match self.shrinks {
             None => alpha(i),
-            Some(scales) => {
-                scales.map(|s| self.bilinear(self.offset(i), s, alpha)).into_iter().fold(0.0, f32::max)
+            Some(shrinks) => {
+                shrinks.map(|s| self.bilinear(self.offset(i), s, alpha)).into_iter().fold(0.0, f32::max)
             }
         }
     }
 
     /// What an enlargement about the centre brings to a place.
-    fn bilinear(&self, offset: [f32; 2], scale: f32, value: impl Fn(usize) -> f32) -> f32 {
+    fn bilinear(&self, offset: [f32; 2], shrink: f32, value: impl Fn(usize) -> f32) -> f32 {
         let size = self.negative.size;
         // In units of pixels, the centre of the first one at 0.
         let at = [0, 1].map(|k| {
-            let x = offset[k] / scale + self.center[k] - 0.5;
+            let x = offset[k] * shrink + self.center[k] - 0.5;
             x.clamp(0.0, (size[k] - 1) as f32)
         });
         let [low, high] = [at.map(|x| x as u32), [0, 1].map(|k| (at[k] as u32 + 1).min(size[k] - 1))];

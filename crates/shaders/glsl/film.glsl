@@ -151,17 +151,14 @@ void film_add_finite(inout PixelSums sums, FilmSample s) {
     sums.saturated += min(saturated, 0xffffffffu - sums.saturated);
 }
 
-// Adds sample `index` of the pixel at column and row `pixel` of the picture, which is the film's pixel `at`. One that is not finite is
-// counted and named instead: it enters the sample count as black.
-void film_add(FilmPixels film, NonFiniteList non_finite, uint at, uvec2 pixel, uint index, FilmSample s) {
+// Adds sample `index` of the pixel at column and row `pixel` of the picture. One that is not finite is counted and named instead: it enters
+// the sample count as black.
+void film_add(inout PixelSums sums, NonFiniteList non_finite, uvec2 pixel, uint index, FilmSample s) {
     if (film_is_finite(s)) {
-        // All at once, so that loads do not wait for the stores of other sums.
-        PixelSums sums = film.at[at];
         film_add_finite(sums, s);
-        film.at[at] = sums;
         return;
     }
-    film.at[at].samples += 1u;
+    sums.samples += 1u;
     uint place = atomicAdd(non_finite.count, 1u);
     if (place < NON_FINITE_ROOM) {
         non_finite.at[place] = NonFinite(pixel.y, pixel.x, index);

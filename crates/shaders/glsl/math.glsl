@@ -11,6 +11,8 @@ const float PI = 3.14159265358979;
 const float INV_PI = 0.318309886183791;
 // The largest float below 1: random numbers lie in [0, ONE_MINUS_EPSILON].
 const float ONE_MINUS_EPSILON = 0.999999940395355;
+// The least normal float, 2^-126.
+const float MIN_POSITIVE = 1.17549435e-38;
 
 // True for ∞; by its bits, since compilers may take it that it does not occur. `x` is not negative.
 bool is_infinite(float x) {

@@ -24,6 +24,8 @@ layout(constant_id = 59) const bool HAS_DISPERSION = true;
 layout(constant_id = 60) const bool HAS_TRANSMISSION = true;
 layout(constant_id = 61) const bool HAS_LOBES = true;
 layout(constant_id = 62) const bool HAS_UNLIT = true;
+layout(constant_id = 63) const bool HAS_COVERED = true;
+
 // Values of TRANSMISSIVE_SHADOWS.
 const uint SHADOWS_AUTO = 0u;
 const uint SHADOWS_PHYSICAL = 1u;

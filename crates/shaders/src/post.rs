@@ -4,7 +4,7 @@
 use bytemuck::{Pod, Zeroable};
 use lumbre_core::color::{Exposure, block_side};
 use lumbre_core::film::Crop;
-use lumbre_core::tone::{MAX_ABERRATION, ToneCurve, aberration_scales};
+use lumbre_core::tone::{MAX_ABERRATION, ToneCurve, aberration_shrinks};
 
 /// Values of [`PostPush::exposure`].
 pub mod exposure {
@@ -87,8 +87,8 @@ pub struct PostPush {
     pub half_diagonal: f32,
     /// 1 where bands are enlarged.
     pub aberrates: u32,
-    /// By how much.
-    pub scales: [f32; 3],
+    /// One over how much.
+    pub shrinks: [f32; 3],
     /// 1: with alpha.
     pub transparent: u32,
 }
@@ -121,7 +121,7 @@ impl PostPush {
             center: [0, 1].map(|i| 0.5 * size[i] - origin[i]),
             half_diagonal: 0.5 * (size[0] * size[0] + size[1] * size[1]).sqrt(),
             aberrates: u32::from(aberration != 0.0),
-            scales: aberration_scales(aberration),
+            shrinks: aberration_shrinks(aberration),
             transparent: u32::from(look.transparent),
         }
     }

@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 
 /// Lists of paths.
 pub const QUEUES: usize = 11;
-/// Numbers of four floats that a path takes: without solids, and with them.
+/// How many times four words a path takes: without solids, and with them.
 pub const STATE_QUADS: [u64; 2] = [26, 36];
 /// Side of the blocks in which pixels are taken.
 pub const BLOCK: [u32; 2] = [8, 4];

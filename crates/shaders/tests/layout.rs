@@ -68,7 +68,7 @@ fn rust() -> Vec<(&'static str, Members)> {
         fields!("ViewTable", ViewTable { film, non_finite, state, queues, heads, picture, origin, size, capacity, seed, frame, max_depth, roulette, clamp_to,
             filter_kind, camera, media }),
         fields!("PostPush", PostPush { film, blocks, state, display, size, block_side, block_count, exposure, factor, ease, tone, vignette,
-            center, half_diagonal, aberrates, scales, transparent }),
+            center, half_diagonal, aberrates, shrinks, transparent }),
         fields!("Push", Push { tables, scene, view, first_pixel, size, first_sample, sample_count, parity, group }),
         fields!("Tables", Tables { albedo_deficit, albedo_schlick_excess, albedo_deficit_average, albedo_schlick_average,
             sheen_directional, sheen_average, aniso_deficit, aniso_schlick_residual, aniso_deficit_average, aniso_schlick_average,

@@ -11,6 +11,7 @@ pub mod convergence;
 pub mod furnace;
 pub mod fuzzing;
 mod gpu;
+pub mod inexact;
 pub mod measure;
 pub mod npy;
 pub mod paired;

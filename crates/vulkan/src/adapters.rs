@@ -101,8 +101,7 @@ pub fn adapters() -> Result<Vec<Adapter>, VulkanError> {
 pub(crate) fn list(instance: &ash::Instance) -> Result<Vec<Adapter>, VulkanError> {
     // SAFETY: a live instance.
     let devices = unsafe { instance.enumerate_physical_devices() }.called("vkEnumeratePhysicalDevices")?;
-    let mut found: Vec<Adapter> =
-        devices.into_iter().map(|d| describe(instance, d)).collect::<Result<_, _>>()?;
+    let mut found: Vec<Adapter> = devices.into_iter().map(|d| describe(instance, d)).collect();
     rank(&mut found);
     Ok(found)
 }
@@ -151,7 +150,8 @@ impl Adapter {
     }
 }
 
-fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<Adapter, VulkanError> {
+/// Cannot fail: one adapter that does not answer must not hide the others.
+fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Adapter {
     // SAFETY: a device of this live instance, here and below; structures of Vulkan 1.2 are only asked for where it is there.
     let basic = unsafe { instance.get_physical_device_properties(raw) };
     let version = basic.api_version;
@@ -172,7 +172,7 @@ fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<Adapter
         clock_bits: 0,
     };
     if version < vk::API_VERSION_1_2 {
-        return Ok(adapter);
+        return adapter;
     }
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
@@ -180,8 +180,14 @@ fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<Adapter
     adapter.driver = text(driver.driver_name_as_c_str());
     adapter.driver_version = text(driver.driver_info_as_c_str());
 
-    let extensions = unsafe { instance.enumerate_device_extension_properties(raw) }
-        .called("vkEnumerateDeviceExtensionProperties")?;
+    let extensions = unsafe { instance.enumerate_device_extension_properties(raw) };
+    let extensions = match extensions.called("vkEnumerateDeviceExtensionProperties") {
+        Ok(extensions) => extensions,
+        Err(error) => {
+            adapter.missing = vec![format!("a list of its extensions ({error})")];
+            return adapter;
+        }
+    };
     let offer = Offer::of(instance, raw, extensions);
     let families = unsafe { instance.get_physical_device_queue_family_properties(raw) };
     adapter.missing = offer.missing();
@@ -193,7 +199,7 @@ fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<Adapter
         }
         None => adapter.missing.push("a queue for compute".to_owned()),
     }
-    Ok(adapter)
+    adapter
 }
 
 /// A family of queues that computes, best one that draws too, and whether it does.

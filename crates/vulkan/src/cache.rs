@@ -1,12 +1,14 @@
 //! What drivers remember of pipelines, kept on disk: making one again then takes a tenth of the time.
 //!
-//! A cache is never needed: a missing, foreign or damaged file, or a folder that cannot be written, is no cache and no error.
+//! A cache is never needed: a missing, foreign or damaged file, or a folder that cannot be written, is no cache and no error. All scenes on
+//! a device share one, so that what one has made the next finds, and none writes over what another has learned.
 
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Shared, lock};
 use ash::vk;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 /// Bytes of the header that Vulkan defines: its length, version, vendor, device, and the UUID of driver and device.
 const HEADER: usize = 32;
@@ -16,56 +18,93 @@ const MOST: u64 = 256 << 20;
 /// A pipeline cache.
 pub struct PipelineCache {
     gpu: Gpu,
+    /// `None`: the device's.
+    own: Option<Kept>,
+}
+
+/// A cache and its file.
+pub(crate) struct Kept {
     raw: vk::PipelineCache,
     path: Option<PathBuf>,
-    /// What was there when it was opened.
-    loaded: Vec<u8>,
+    was_there: bool,
+    /// What the file holds, as far as is known; locked while it is written.
+    written: Mutex<Vec<u8>>,
 }
 
 impl PipelineCache {
-    /// The cache of this device in the user's folder for caches.
+    /// The cache of this device, in the user's folder for caches; the same for all that ask.
     pub fn open(gpu: &Gpu) -> Self {
-        Self::open_in(gpu, folder(|name| std::env::var_os(name).map(PathBuf::from)).as_deref())
+        PipelineCache { gpu: gpu.clone(), own: None }
     }
 
-    /// The same in another folder; `None`: in memory only.
+    /// One of its own, in another folder; `None`: in memory only.
     pub fn open_in(gpu: &Gpu, folder: Option<&Path>) -> Self {
+        PipelineCache { gpu: gpu.clone(), own: Some(Kept::open(&gpu.0, folder)) }
+    }
+
+    fn kept(&self) -> &Kept {
+        let users = || folder(|name| std::env::var_os(name).map(PathBuf::from));
+        let shared = || self.gpu.0.cache.get_or_init(|| Kept::open(&self.gpu.0, users().as_deref()));
+        self.own.as_ref().unwrap_or_else(shared)
+    }
+
+    pub(crate) fn raw(&self) -> vk::PipelineCache {
+        self.kept().raw
+    }
+
+    /// Whether there was something on disk.
+    pub fn was_there(&self) -> bool {
+        self.kept().was_there
+    }
+
+    /// Writes it to disk if it has changed; to be called when pipelines were made. Whether there is now a file as it should be.
+    pub fn save(&self) -> bool {
+        let kept = self.kept();
+        let Some(path) = kept.path.as_deref().filter(|_| kept.raw != vk::PipelineCache::null()) else {
+            return false;
+        };
+        let mut written = lock(&kept.written);
+        // SAFETY: a live device and cache.
+        let content = unsafe { self.gpu.0.raw.get_pipeline_cache_data(kept.raw) }.unwrap_or_default();
+        if content == *written {
+            return true;
+        }
+        let done = write(path, &content).is_ok();
+        if done {
+            *written = content;
+        }
+        done
+    }
+}
+
+impl Kept {
+    fn open(gpu: &Shared, folder: Option<&Path>) -> Self {
         let path = folder.map(|f| f.join(file_name(gpu)));
         let loaded = path.as_deref().and_then(read).filter(|content| fits(gpu, content)).unwrap_or_default();
         let make = |content: &[u8]| {
             let create = vk::PipelineCacheCreateInfo::default().initial_data(content);
             // SAFETY: a live device; the content has this device's header and is as it was written.
-            unsafe { gpu.0.raw.create_pipeline_cache(&create, None) }
+            unsafe { gpu.raw.create_pipeline_cache(&create, None) }
         };
         // A null cache is none.
         let raw = make(&loaded).or_else(|_| make(&[])).unwrap_or_default();
-        PipelineCache { gpu: gpu.clone(), raw, path, loaded }
+        Kept { raw, path, was_there: !loaded.is_empty(), written: Mutex::new(loaded) }
     }
 
-    pub(crate) fn raw(&self) -> vk::PipelineCache {
-        self.raw
-    }
-
-    /// Whether there was something on disk.
-    pub fn was_there(&self) -> bool {
-        !self.loaded.is_empty()
-    }
-
-    /// Writes it to disk if it has changed; to be called when pipelines were made. Whether there is now a file as it should be.
-    pub fn save(&self) -> bool {
-        let Some(path) = self.path.as_deref().filter(|_| self.raw != vk::PipelineCache::null()) else {
-            return false;
-        };
-        // SAFETY: a live device and cache.
-        let content = unsafe { self.gpu.0.raw.get_pipeline_cache_data(self.raw) }.unwrap_or_default();
-        content == self.loaded || write(path, &content).is_ok()
+    /// # Safety
+    /// No pipeline is being made with it.
+    pub(crate) unsafe fn destroy(&self, device: &ash::Device) {
+        // SAFETY: by the caller; pipelines do not need it once they are made; null is ignored.
+        unsafe { device.destroy_pipeline_cache(self.raw, None) };
     }
 }
 
 impl Drop for PipelineCache {
     fn drop(&mut self) {
-        // SAFETY: pipelines do not need it once they are made; null is ignored.
-        unsafe { self.gpu.0.raw.destroy_pipeline_cache(self.raw, None) };
+        if let Some(own) = &self.own {
+            // SAFETY: nobody else has it.
+            unsafe { own.destroy(&self.gpu.0.raw) };
+        }
     }
 }
 
@@ -81,15 +120,15 @@ fn folder(variable: impl Fn(&str) -> Option<PathBuf>) -> Option<PathBuf> {
 }
 
 /// A file for each device and driver.
-fn file_name(gpu: &Gpu) -> String {
-    let limits = &gpu.0.limits;
+fn file_name(gpu: &Shared) -> String {
+    let limits = &gpu.limits;
     let uuid: String = limits.pipeline_cache_uuid.iter().map(|b| format!("{b:02x}")).collect();
     format!("pipelines-{:04x}-{:04x}-{uuid}.bin", limits.vendor, limits.device)
 }
 
 /// Whether the header names this device and driver.
-fn fits(gpu: &Gpu, content: &[u8]) -> bool {
-    let limits = &gpu.0.limits;
+fn fits(gpu: &Shared, content: &[u8]) -> bool {
+    let limits = &gpu.limits;
     let word = |i: usize| u32::from_le_bytes([content[i], content[i + 1], content[i + 2], content[i + 3]]);
     content.len() >= HEADER
         && word(0) as usize >= HEADER
@@ -160,7 +199,7 @@ mod tests {
         assert!(!first.was_there() && first.save());
         assert!(open().was_there());
         // Cut short, one bit off, another device's, empty: none of them is a cache.
-        let path = first.path.clone().unwrap();
+        let path = first.kept().path.clone().unwrap();
         let good = fs::read(&path).unwrap();
         let mut damaged = good.clone();
         damaged[HEADER - 1] ^= 1;
@@ -177,6 +216,10 @@ mod tests {
         let within = PipelineCache::open_in(&gpu, Some(&path));
         assert!(!within.was_there() && !within.save());
         assert!(!PipelineCache::open_in(&gpu, None).save());
+        // All that ask for the device's get the same one.
+        let [one, other] = [(); 2].map(|()| PipelineCache::open(&gpu));
+        assert_eq!(one.raw(), other.raw());
+        assert_ne!(one.raw(), first.raw());
         fs::remove_dir_all(&folder).unwrap();
         silent(&gpu);
     }

@@ -15,8 +15,6 @@ pub(crate) const REQUIRED_EXTENSIONS: [&CStr; 3] = [
 pub struct Features {
     /// Says how much memory is free (`VK_EXT_memory_budget`).
     pub memory_budget: bool,
-    /// Rays can be sorted before they are shaded (`VK_NV_ray_tracing_invocation_reorder`).
-    pub invocation_reorder: bool,
     /// Says what its compiler made of shaders (`VK_KHR_pipeline_executable_properties`).
     pub pipeline_statistics: bool,
     /// Descriptors may be written while command buffers that use them are recorded.
@@ -34,7 +32,6 @@ pub(crate) struct Chain {
     v12: vk::PhysicalDeviceVulkan12Features<'static>,
     acceleration: vk::PhysicalDeviceAccelerationStructureFeaturesKHR<'static>,
     pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR<'static>,
-    reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV<'static>,
     executables: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
 }
 
@@ -63,9 +60,6 @@ impl Offer {
         }
         if offer.has(ash::khr::ray_tracing_pipeline::NAME) {
             all = all.push_next(&mut chain.pipeline);
-        }
-        if offer.has(ash::nv::ray_tracing_invocation_reorder::NAME) {
-            all = all.push_next(&mut chain.reorder);
         }
         if offer.has(ash::khr::pipeline_executable_properties::NAME) {
             all = all.push_next(&mut chain.executables);
@@ -108,8 +102,6 @@ impl Offer {
     pub(crate) fn features(&self, graphics: bool) -> Features {
         Features {
             memory_budget: self.has(ash::ext::memory_budget::NAME),
-            invocation_reorder: self.has(ash::nv::ray_tracing_invocation_reorder::NAME)
-                && self.chain.reorder.ray_tracing_invocation_reorder == vk::TRUE,
             pipeline_statistics: self.has(ash::khr::pipeline_executable_properties::NAME)
                 && self.chain.executables.pipeline_executable_info == vk::TRUE,
             indirect_launch: self.chain.pipeline.ray_tracing_pipeline_trace_rays_indirect == vk::TRUE,
@@ -124,7 +116,6 @@ impl Features {
     pub(crate) fn extensions(&self) -> Vec<&'static CStr> {
         let optional = [
             (ash::ext::memory_budget::NAME, self.memory_budget),
-            (ash::nv::ray_tracing_invocation_reorder::NAME, self.invocation_reorder),
             (ash::khr::pipeline_executable_properties::NAME, self.pipeline_statistics),
         ];
         REQUIRED_EXTENSIONS.into_iter().chain(optional.into_iter().filter(|e| e.1).map(|e| e.0)).collect()
@@ -146,8 +137,6 @@ impl Features {
             pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default()
                 .ray_tracing_pipeline(true)
                 .ray_tracing_pipeline_trace_rays_indirect(self.indirect_launch),
-            reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV::default()
-                .ray_tracing_invocation_reorder(self.invocation_reorder),
             executables: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()
                 .pipeline_executable_info(self.pipeline_statistics),
         }
@@ -167,7 +156,6 @@ impl Chain {
         self.v12.p_next = nowhere;
         self.acceleration.p_next = nowhere;
         self.pipeline.p_next = nowhere;
-        self.reorder.p_next = nowhere;
         self.executables.p_next = nowhere;
         self
     }
@@ -183,9 +171,6 @@ impl Chain {
             .push_next(&mut self.v12)
             .push_next(&mut self.acceleration)
             .push_next(&mut self.pipeline);
-        if features.invocation_reorder {
-            create = create.push_next(&mut self.reorder);
-        }
         if features.pipeline_statistics {
             create = create.push_next(&mut self.executables);
         }

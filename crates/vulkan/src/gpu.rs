@@ -1,6 +1,7 @@
 //! An open device: handle, queue, memory; and what becomes of it when it is lost.
 
 use crate::adapters::{self, Adapter, Kind, Wanted};
+use crate::cache::Kept;
 use crate::commands::Slot;
 use crate::error::{Called, VulkanError};
 use crate::features::Features;
@@ -10,7 +11,7 @@ use ash::vk;
 use std::ffi::CString;
 use std::mem::ManuallyDrop;
 use std::sync::atomic::{AtomicBool, AtomicI64, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
 
 /// How a device is opened.
@@ -47,6 +48,8 @@ pub(crate) struct Shared {
     /// Command buffers that wait for work.
     pub(crate) idle: Mutex<Vec<Slot>>,
     pub(crate) memory: ManuallyDrop<Memory>,
+    /// What the driver remembers of pipelines, from the first that is made on.
+    pub(crate) cache: OnceLock<Kept>,
     pub(crate) patience: Duration,
     work: Mutex<Work>,
     names: Option<ash::ext::debug_utils::Device>,
@@ -123,6 +126,7 @@ impl Gpu {
             queue: Mutex::new(unsafe { raw.get_device_queue(adapter.queue_family, 0) }),
             idle: Mutex::default(),
             memory: ManuallyDrop::new(memory),
+            cache: OnceLock::new(),
             patience: options.patience * if adapter.kind == Kind::Cpu { 10 } else { 1 },
             names: instance.validates().then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw)),
             state: State::default(),
@@ -255,6 +259,9 @@ impl Drop for Shared {
             let _ = self.raw.device_wait_idle();
             for slot in lock(&self.idle).drain(..) {
                 slot.destroy(&self.raw);
+            }
+            if let Some(cache) = self.cache.get() {
+                cache.destroy(&self.raw);
             }
             ManuallyDrop::drop(&mut self.memory);
             self.raw.destroy_device(None);

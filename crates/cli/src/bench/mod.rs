@@ -1,8 +1,10 @@
 //! `lumbre bench`: tables of what a device does. One file a table; [`measure`] takes the figures, [`sweep`] varies one thing after
 //! another, [`table`] prints.
 
+mod build;
 mod depth;
 mod equal_time;
+mod first_frame;
 mod hemisphere;
 mod measure;
 mod path;
@@ -13,19 +15,26 @@ mod size;
 mod still;
 mod sweep;
 mod table;
+mod view;
 
 use crate::exit::{Code, Failure};
 use crate::flags::bench::{BenchArgs, Table as Which};
+use crate::flags::sampling;
 use crate::{console, device};
 use lumbre::core::Film;
 use lumbre::core::settings::View;
 use lumbre::{Backend, Outcome, Targets};
 use place::Place;
+use std::time::Instant;
 
-/// Runs the command.
-pub(crate) fn run(args: &BenchArgs) -> Result<Code, Failure> {
-    // An unavailable device is said before a scene is opened.
-    drop(device::open(&args.device)?);
+/// Runs the command. `started`: when the process began.
+pub(crate) fn run(args: &mut BenchArgs, started: Instant) -> Result<Code, Failure> {
+    args.loading.read_edits()?;
+    let args = &*args;
+    // An unavailable device is said before a scene is opened; but opening it belongs to the first frame.
+    if args.table != Which::FirstFrame {
+        drop(device::open(&args.device)?);
+    }
     let table = device::pool(&args.device)?.install(|| match args.table {
         Which::Path => path::table(args),
         Which::Samples => samples::table(args),
@@ -35,6 +44,9 @@ pub(crate) fn run(args: &BenchArgs) -> Result<Code, Failure> {
         Which::Still => still::table(args),
         Which::Share => share::table(args),
         Which::EqualTime => equal_time::table(args),
+        Which::Build => build::table(args),
+        Which::FirstFrame => first_frame::table(args, started),
+        Which::View => view::table(args),
     })?;
     console::result(match (args.json, args.markdown) {
         (true, _) => table.json(),
@@ -46,15 +58,16 @@ pub(crate) fn run(args: &BenchArgs) -> Result<Code, Failure> {
 
 /// How the paths of a table are made, for those who read it.
 fn settings(args: &BenchArgs, device: &str) -> Vec<(&'static str, String)> {
-    let own = |name: &str| args.sampling.described().into_iter().find(|(n, _)| *n == name).map(|(_, v)| v);
-    let mut all = vec![("device", device.to_owned())];
+    let all = sampling::described(&args.settings());
+    let own = |name: &str| all.iter().find(|(n, _)| *n == name).map(|(_, v)| v.clone());
+    let mut lines = vec![("device", device.to_owned())];
     let roulette = own("roulette").unwrap_or_default();
     let roulette = if roulette == "off" { roulette } else { format!("from event {roulette}") };
-    all.push(("roulette", roulette));
+    lines.push(("roulette", roulette));
     for (name, key) in [("sampler", "sampler"), ("filter", "filter"), ("light sampling", "lightSampling")] {
-        all.extend(own(key).map(|value| (name, value)));
+        lines.extend(own(key).map(|value| (name, value)));
     }
-    all
+    lines
 }
 
 /// Brings a place to the device, and to no other if that fails: figures are of one device.

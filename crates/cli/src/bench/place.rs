@@ -4,7 +4,7 @@ use crate::console;
 use crate::exit::{Code, Failure};
 use crate::flags::bench::BenchArgs;
 use crate::flags::values::file_name;
-use crate::lit;
+use crate::lit::{self, Lit};
 use lumbre::core::math::Vec3;
 use lumbre::core::settings::{RenderSettings, View};
 use lumbre::scene::{CompiledScene, Scene};
@@ -63,7 +63,11 @@ pub(super) fn scenes(args: &BenchArgs) -> Result<Vec<PathBuf>, Failure> {
 impl Place {
     /// Loads and compiles a scene.
     pub(super) fn open(path: &Path, args: &BenchArgs) -> Result<Self, Failure> {
-        let lit = lit::load(path, &args.loading, &args.light)?;
+        Self::of(path, lit::load(path, &args.loading, &args.light)?, args)
+    }
+
+    /// Compiles a scene that was loaded.
+    pub(super) fn of(path: &Path, lit: Lit, args: &BenchArgs) -> Result<Self, Failure> {
         let cameras = cameras(path, args, &lumbre::camera::camera_names(&lit.scene));
         for (_, options) in &cameras {
             lumbre::authored_aspect(&lit.scene, &options.choice).map_err(Failure::usage)?;
@@ -84,7 +88,12 @@ impl Place {
     }
 }
 
-impl Eye<'_> {
+impl<'a> Eye<'a> {
+    /// The scene that it looks at.
+    pub(super) fn scene(&self) -> &'a Scene {
+        self.place
+    }
+
     /// What it sees in a picture of this size.
     pub(super) fn view(&self, size: [u32; 2], settings: RenderSettings) -> Result<View, Failure> {
         let aspect = size[0] as f32 / size[1] as f32;
@@ -101,6 +110,7 @@ fn cameras(path: &Path, args: &BenchArgs, names: &[String]) -> Vec<(String, Came
         fov: args.fov.map(f32::to_radians),
         ..CameraOptions::default()
     };
+    let edited = args.loading.edited.camera_options();
     let with = |name: &str, choice| (name.to_owned(), CameraOptions { choice, ..given.clone() });
     if !args.camera.is_empty() {
         let choice =
@@ -110,6 +120,9 @@ fn cameras(path: &Path, args: &BenchArgs, names: &[String]) -> Vec<(String, Came
     let moved = args.look_from.is_some() || args.look_at.is_some();
     if moved {
         return vec![with("of the flags", CameraChoice::Default)];
+    }
+    if edited != CameraOptions::default() {
+        return vec![("of the edits".into(), CameraOptions { fov: given.fov.or(edited.fov), ..edited })];
     }
     if path.ends_with(SPONZA) {
         // It has no camera: along the nave, at the height of a man's eyes.

@@ -7,6 +7,7 @@ use super::sampling::SamplingArgs;
 use super::values::{Depth, Size, depth, duration, fov, size, vec3};
 use clap::{Args, ValueEnum};
 use lumbre::core::math::Vec3;
+use lumbre::core::settings::RenderSettings;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -27,6 +28,9 @@ Examples:
   lumbre bench depth scene.glb --depths 1,10,50 --roulette off
   lumbre bench equal-time --time 30s --json
       this device beside the CPU, each for half a minute
+  lumbre bench build --triangles 20000,1000000
+  lumbre bench first-frame scene.glb
+  lumbre bench view scene.glb --sizes 1280x720 --device cpu
 
 Exit codes:
   0 done, 2 wrong usage, 65 bad data, 66 a file cannot be opened, 69 the GPU cannot be had or
@@ -51,6 +55,12 @@ pub(crate) enum Table {
     Share,
     /// The device beside the CPU, each for --time
     EqualTime,
+    /// Time to build acceleration structures, and their bytes: of a grid of --triangles, or of scenes
+    Build,
+    /// Time from the start of the process to the first frame of a scene, step by step
+    FirstFrame,
+    /// How soon a view answers, without a window: to moves of the camera, and to edits for --time
+    View,
 }
 
 /// Flags of `lumbre bench`.
@@ -113,7 +123,12 @@ pub(crate) struct BenchArgs {
     #[arg(value_parser = clap::value_parser!(u32).range(2..=1 << 24))]
     pub(crate) spp: Option<u32>,
 
-    /// Time for each device in `equal-time`.
+    /// Triangles of the grids of `build`, at least.
+    #[arg(long, value_name = "N,...", value_delimiter = ',', default_value = "1000000")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1 << 26))]
+    pub(crate) triangles: Vec<u32>,
+
+    /// Time for each device in `equal-time`, and of the edits of `view`.
     #[arg(long, value_name = "TIME", value_parser = duration, default_value = "10s")]
     pub(crate) time: Duration,
 
@@ -134,4 +149,11 @@ pub(crate) struct BenchArgs {
     // Last, since its heading holds for all that follows.
     #[command(flatten)]
     pub(crate) loading: LoadingArgs,
+}
+
+impl BenchArgs {
+    /// What the integrator honours.
+    pub(crate) fn settings(&self) -> RenderSettings {
+        self.sampling.settings(self.loading.edited.settings(RenderSettings::default()))
+    }
 }

@@ -72,7 +72,9 @@ impl EnvironmentLight<'_> {
     /// Map coordinates of a unit direction: u wraps in [0, 1), v in [0, 1].
     #[inline]
     fn uv(&self, d: Vec3) -> [f32; 2] {
-        let u = 0.5 + (atan2(d.x, -d.z) - self.rotation) * (0.5 / PI);
+        // At the poles any azimuth will do, but not one that depends on the sign of a zero, which GPUs may lose.
+        let azimuth = if d.x == 0.0 && d.z == 0.0 { 0.0 } else { atan2(d.x, -d.z) };
+        let u = 0.5 + (azimuth - self.rotation) * (0.5 / PI);
         let v = atan2(safe_sqrt(d.x * d.x + d.z * d.z), d.y) / PI;
         [u - u.floor(), v]
     }

@@ -1,7 +1,7 @@
 //! A backend that goes on with another one where the first fails. Sums are exact and ranges of samples are known, so the picture is
 //! then made of the same samples as if nothing had happened.
 
-use super::{Backend, DeviceError, Frames, PassTime, RenderError, Replayed};
+use super::{AccelReport, Backend, DeviceError, Frames, PassTime, RenderError, Replayed};
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::settings::View;
@@ -89,6 +89,10 @@ impl Backend for Fallback {
 
     fn complaints(&self) -> Option<Vec<String>> {
         self.state().current.complaints()
+    }
+
+    fn accel(&self) -> Option<AccelReport> {
+        self.state().current.accel()
     }
 
     fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, RenderError> {

@@ -55,6 +55,30 @@ pub struct Replayed {
     pub ms: f64,
 }
 
+/// Acceleration structures of a scene on a device ([`Backend::accel`]): what they hold, and what making them took by the device's own
+/// clock (0 where it has none).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AccelReport {
+    /// Bottom-level structures.
+    pub structures: usize,
+    /// Triangles in them.
+    pub triangles: u64,
+    /// Instances in the top level.
+    pub instances: usize,
+    /// Bytes of the bottom level as built.
+    pub bytes_built: u64,
+    /// Bytes of it after compaction.
+    pub bytes: u64,
+    /// Bytes of the top level.
+    pub top_bytes: u64,
+    /// Milliseconds to build the bottom level.
+    pub build_ms: f64,
+    /// Milliseconds to compact it.
+    pub compact_ms: f64,
+    /// Milliseconds to build the top level.
+    pub top_build_ms: f64,
+}
+
 /// Frames by plain renders into one film.
 pub(super) fn by_renders(
     backend: &(impl Backend + ?Sized),

@@ -15,7 +15,7 @@ mod vulkan;
 pub use canvas::{Canvas, Developed};
 pub use device::{Device, DeviceError, GpuChoice};
 pub use fallback::Fallback;
-pub use frames::{Frames, PassTime, Replayed};
+pub use frames::{AccelReport, Frames, PassTime, Replayed};
 pub use list::{DeviceInfo, DeviceKind, Devices, devices};
 pub use open::{GpuOptions, OpenDevice};
 
@@ -96,6 +96,11 @@ pub trait Backend: Send + Sync {
 
     /// What a validation layer ([`GpuOptions::validation`]) has found so far, the oldest first; `None` where none listens.
     fn complaints(&self) -> Option<Vec<String>> {
+        None
+    }
+
+    /// What there is of acceleration structures and what making them took; `None` where the device does not say.
+    fn accel(&self) -> Option<AccelReport> {
         None
     }
 

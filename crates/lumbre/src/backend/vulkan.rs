@@ -1,8 +1,8 @@
 //! The GPUs, by `lumbre-vulkan`: its adapters, handles and errors in this crate's terms.
 
 use super::{
-    Backend, Canvas, Developed, Device, DeviceInfo, DeviceKind, Frames, GpuChoice, GpuOptions, PassTime,
-    RenderError, Replayed,
+    AccelReport, Backend, Canvas, Developed, Device, DeviceInfo, DeviceKind, Frames, GpuChoice, GpuOptions,
+    PassTime, RenderError, Replayed,
 };
 use crate::look::Look;
 use lumbre_core::Film;
@@ -89,7 +89,7 @@ impl Backend for VulkanBackend {
     }
 
     fn memory(&self) -> u64 {
-        self.accel().bytes + self.accel().top_bytes
+        VulkanBackend::accel(self).bytes + VulkanBackend::accel(self).top_bytes
     }
 
     fn render(
@@ -112,6 +112,21 @@ impl Backend for VulkanBackend {
 
     fn pass_times(&self) -> Vec<PassTime> {
         VulkanBackend::pass_times(self).into_iter().map(pass_time).collect()
+    }
+
+    fn accel(&self) -> Option<AccelReport> {
+        let r = VulkanBackend::accel(self);
+        Some(AccelReport {
+            structures: r.structures,
+            triangles: r.triangles,
+            instances: r.instances,
+            bytes_built: r.bytes_built,
+            bytes: r.bytes,
+            top_bytes: r.top_bytes,
+            build_ms: r.build_ms,
+            compact_ms: r.compact_ms,
+            top_build_ms: r.top_build_ms,
+        })
     }
 
     fn complaints(&self) -> Option<Vec<String>> {

@@ -34,7 +34,9 @@ float environment_cos(uint row, uint height) {
 
 // Map coordinates of a unit direction: u wraps in [0, 1), v in [0, 1].
 vec2 environment_uv(EnvironmentLight self_, vec3 d) {
-    float u = 0.5 + (atan2(d.x, -d.z) - self_.rotation) * (0.5 / PI);
+    // At the poles any azimuth will do, but not one that depends on the sign of a zero, which devices may lose.
+    float azimuth = d.x == 0.0 && d.z == 0.0 ? 0.0 : atan2(d.x, -d.z);
+    float u = 0.5 + (azimuth - self_.rotation) * (0.5 / PI);
     float v = atan2(safe_sqrt(d.x * d.x + d.z * d.z), d.y) / PI;
     return vec2(u - floor(u), v);
 }

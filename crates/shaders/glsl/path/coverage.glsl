@@ -41,7 +41,7 @@ float surface_coverage(uint material, HitAttributes at) {
 
 // True when the ray of `key` finds the surface there.
 bool covered(Hit hit, uint material, uint key) {
-    if ((MATERIAL(material).flags & (FLAG_ALPHA_MASK | FLAG_ALPHA_BLEND)) == 0u) {
+    if (!HAS_COVERED || (MATERIAL(material).flags & (FLAG_ALPHA_MASK | FLAG_ALPHA_BLEND)) == 0u) {
         return true;
     }
     float u = to_unit(hash_combine(hash_combine(key, hit.instance), hit.triangle));

@@ -32,8 +32,5 @@ void main() {
         path_begin_inside(path);
     }
     path_store(id, path);
-    Quads state = push.view.state;
-    // No first hit yet.
-    state.at[STATE_NORMAL * push.view.capacity + id] = vec4(0.0);
     queues.at[id] = id;
 }

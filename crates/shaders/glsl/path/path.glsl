@@ -202,6 +202,8 @@ bool path_survives(inout Path path) {
 struct Scattered {
     // The path goes on.
     bool alive;
+    // It waits at a shadow catcher.
+    bool waits;
     // Its shadow rays, if it has any.
     bool has_far;
     bool has_near;
@@ -265,6 +267,7 @@ Scattered path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo
     bool scatters =
         bsdf_sample(surface.bsdf, wo_local, lobe, sampler_direction(path.smp, path.depth), TRANSPORT_RADIANCE, s);
     result.alive = false;
+    result.waits = false;
     if (!scatters) {
         return result;
     }

@@ -9,8 +9,9 @@
 #include "film.glsl"
 #include "medium.glsl"
 
+// Words as integers: moved as floats, those that are none could be taken for 0 or for another NaN on the way.
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Quads {
-    vec4 at[];
+    uvec4 at[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Queues {
     uint at[];

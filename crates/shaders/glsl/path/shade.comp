@@ -16,19 +16,21 @@ shared uint members[3];
 shared uint begins[3];
 
 // The planes of the first hit.
-void store_planes(uint id, Path path, Interaction it, Surface surface) {
+void store_planes(uint id, inout Path path, Interaction it, Surface surface) {
+    path.has_hit = true;
     Quads state = push.view.state;
     uint n = push.view.capacity;
     Rgb albedo = push.view.object_colors != 0u ? label(it.instance) : bsdf_albedo(surface.bsdf);
-    state.at[STATE_ALBEDO * n + id] = vec4(albedo, path.travelled + it.t);
-    state.at[STATE_NORMAL * n + id] = vec4(surface.frame.n, 1.0);
-    state.at[STATE_POSITION * n + id] = vec4(it.p, 0.0);
+    state.at[STATE_ALBEDO * n + id] = floatBitsToUint(vec4(albedo, path.travelled + it.t));
+    state.at[STATE_NORMAL * n + id] = floatBitsToUint(vec4(surface.frame.n, 0.0));
+    state.at[STATE_POSITION * n + id] = floatBitsToUint(vec4(it.p, 0.0));
 }
 
 // One step of a path.
 Scattered step_path(uint id, inout Path path) {
     Scattered result;
     result.alive = false;
+    result.waits = false;
     result.has_far = false;
     result.has_near = false;
     Hit hit;
@@ -44,6 +46,7 @@ Scattered step_path(uint id, inout Path path) {
         // Here and not there: storing the path drops the distance of the hit.
         path.travelled += it.t;
         queue_add(QUEUE_CATCHERS, id);
+        result.waits = true;
         return result;
     }
     // Build the surface.
@@ -83,7 +86,11 @@ void main() {
         Scattered result = step_path(id, path);
         path.asked |= (result.has_far ? asked_bit(push.parity, GROUP_FAR) : 0u)
             | (result.has_near ? asked_bit(push.parity, GROUP_NEAR) : 0u);
-        path_store(id, path);
+        if (result.alive || result.waits) {
+            path_store(id, path);
+        } else {
+            path_store_end(id, path);
+        }
         joins = bvec3(result.alive, result.has_far, result.has_near);
     }
     // Join the lists: the group reserves its places at once.

@@ -1,4 +1,4 @@
-// Paths under way, as they lie in memory between passes: four numbers of all paths after one another, then the next four. A path keeps its
+// Paths under way, as they lie in memory between passes: four words of all paths after one another, then the next four. A path keeps its
 // place from the camera to the film; lists say which paths go where.
 #ifndef PATH_STATE_GLSL
 #define PATH_STATE_GLSL
@@ -40,6 +40,8 @@ struct Path {
     float alpha;
     // Scattering events so far.
     uint depth;
+    // It has met a surface, whose planes are kept.
+    bool has_hit;
     // Shadow rays whose light has not been added yet: bits ASKED_….
     uint asked;
 };
@@ -77,6 +79,11 @@ const uint STATE_SHADOW_MEDIA = 28u; // two for each group of lights, for either
 const uint STATE_QUADS_PLAIN = 26u;
 const uint STATE_QUADS = 36u;
 
+// Whether the last vertex counts beside its density: only triangles have one that depends on it.
+const bool KEEPS_ARRIVAL = LIGHT_SAMPLING && HAS_TRIANGLE_LIGHTS;
+// Whether a shadow ray has more to keep than three times four words.
+const bool PENDING_HAS_MORE = (HAS_NEAR_LIGHTS && HAS_FAR_LIGHTS) || HAS_DISPERSION;
+
 // Shadow rays of a path lie apart by the parity of the step that asked for them: those of one step may still be under way through glass
 // while the next asks for others. What they bring is added two steps later, or with the film.
 uint pending_slot(uint parity, uint group) {
@@ -87,7 +94,9 @@ uint asked_bit(uint parity, uint group) {
     return 1u << pending_slot(parity, group);
 }
 
-#define STATE(place, id) push.view.state.at[(place) * push.view.capacity + (id)]
+// Four words of a path: as they are, and as floats.
+#define STATE_WORDS(place, id) push.view.state.at[(place) * push.view.capacity + (id)]
+#define STATE(place, id) uintBitsToFloat(STATE_WORDS(place, id))
 
 // Pixels are taken in blocks of 8 x 4, so that neighbours in a list are neighbours in the picture.
 const uvec2 BLOCK = uvec2(8u, 4u);
@@ -138,12 +147,12 @@ void queue_add(uint queue, uint id) {
 
 void media_store(uint place, uint id, MediumStack media) {
     Quads state = push.view.state;
-    state.at[place * push.view.capacity + id] = uintBitsToFloat(media.material);
-    state.at[(place + 1u) * push.view.capacity + id] = media.ior;
+    state.at[place * push.view.capacity + id] = media.material;
+    state.at[(place + 1u) * push.view.capacity + id] = floatBitsToUint(media.ior);
 }
 
 MediumStack media_load(uint place, uint id) {
-    return MediumStack(floatBitsToUint(STATE(place, id)), STATE(place + 1u, id));
+    return MediumStack(STATE_WORDS(place, id), STATE(place + 1u, id));
 }
 
 // Light that scattered this many times on its way to the camera, within the bound that the settings set.
@@ -156,18 +165,28 @@ Spectrum path_clamped(Spectrum contribution, uint scattered) {
     return largest > most ? contribution * (most / largest) : contribution;
 }
 
-// All but the hit and the planes of the first one.
-void path_store(uint id, Path path) {
+// What the film will want to know of a path.
+void path_store_end(uint id, Path path) {
     Quads state = push.view.state;
     uint n = push.view.capacity;
     uint bits = (path.through_solid ? 1u : 0u) | (path.seen_by_camera ? 2u : 0u) | (path.straight ? 4u : 0u)
-        | (path.caught << 3) | (path.asked << 10) | (path.depth << 14);
-    state.at[STATE_RAY * n + id] = vec4(path.ray.origin, 0.0);
-    state.at[STATE_DIRECTION * n + id] = vec4(path.ray.dir, path.arrival_pdf);
-    state.at[STATE_BETA * n + id] = vec4(path.beta, path.travelled);
-    state.at[STATE_ARRIVAL * n + id] = vec4(path.arrival_p, path.eta_scale);
-    state.at[STATE_RADIANCE * n + id] = vec4(path.radiance, path.alpha);
-    state.at[STATE_BITS * n + id] = vec4(uintBitsToFloat(bits), path.wavelength, 0.0, 0.0);
+        | (path.caught << 3) | (path.asked << 10) | (path.has_hit ? 1u << 14 : 0u) | (path.depth << 15);
+    state.at[STATE_RADIANCE * n + id] = floatBitsToUint(vec4(path.radiance, path.alpha));
+    state.at[STATE_BITS * n + id] = uvec4(bits, floatBitsToUint(vec2(path.wavelength, path.eta_scale)), 0u);
+}
+
+// A path that goes on: all but the hit and the planes of the first one.
+void path_store(uint id, Path path) {
+    path_store_end(id, path);
+    Quads state = push.view.state;
+    uint n = push.view.capacity;
+    // Until it is traced, the ray has its depth in the place of the distance.
+    state.at[STATE_RAY * n + id] = uvec4(floatBitsToUint(path.ray.origin), path.depth);
+    state.at[STATE_DIRECTION * n + id] = floatBitsToUint(vec4(path.ray.dir, path.arrival_pdf));
+    state.at[STATE_BETA * n + id] = floatBitsToUint(vec4(path.beta, path.travelled));
+    if (KEEPS_ARRIVAL) {
+        state.at[STATE_ARRIVAL * n + id] = floatBitsToUint(vec4(path.arrival_p, 0.0));
+    }
     if (HAS_SOLID) {
         media_store(STATE_MEDIA, id, path.media);
     }
@@ -184,33 +203,36 @@ Spectrum pending_brought(uint id, uint asked, uint parity) {
     return brought;
 }
 
-uint path_load_asked(uint id) {
-    return (floatBitsToUint(STATE(STATE_BITS, id).x) >> 10) & 15u;
+// Shadow rays whose light has not been added yet, and whether there are planes of a first hit.
+uint path_load_asked(uint id, out bool has_hit) {
+    uint bits = STATE_WORDS(STATE_BITS, id).x;
+    has_hit = (bits & (1u << 14)) != 0u;
+    return (bits >> 10) & 15u;
 }
 
 Path path_load(uint id) {
     vec4 ray = STATE(STATE_RAY, id);
     vec4 direction = STATE(STATE_DIRECTION, id);
     vec4 beta = STATE(STATE_BETA, id);
-    vec4 arrival = STATE(STATE_ARRIVAL, id);
     vec4 radiance = STATE(STATE_RADIANCE, id);
-    vec4 more = STATE(STATE_BITS, id);
-    uint bits = floatBitsToUint(more.x);
+    uvec4 more = STATE_WORDS(STATE_BITS, id);
+    uint bits = more.x;
     Path path;
     path.smp = path_sampler(id);
     path.ray = ray_new(ray.xyz, direction.xyz, 0.0);
     path.arrival_pdf = direction.w;
     path.beta = beta.xyz;
     path.travelled = beta.w;
-    path.arrival_p = arrival.xyz;
-    path.eta_scale = arrival.w;
+    path.arrival_p = KEEPS_ARRIVAL ? STATE(STATE_ARRIVAL, id).xyz : vec3(0.0);
     path.alpha = radiance.w;
-    path.wavelength = more.y;
+    path.wavelength = uintBitsToFloat(more.y);
+    path.eta_scale = uintBitsToFloat(more.z);
     path.through_solid = (bits & 1u) != 0u;
     path.seen_by_camera = (bits & 2u) != 0u;
     path.straight = (bits & 4u) != 0u;
     path.caught = (bits >> 3) & 127u;
-    path.depth = bits >> 14;
+    path.has_hit = (bits & (1u << 14)) != 0u;
+    path.depth = bits >> 15;
     path.asked = (bits >> 10) & 15u;
     path.radiance = radiance.xyz + pending_brought(id, path.asked, push.parity);
     path.asked &= ~(asked_bit(push.parity, 0u) | asked_bit(push.parity, 1u));
@@ -221,26 +243,26 @@ Path path_load(uint id) {
     return path;
 }
 
+// Scattering events of a path whose ray has not been traced yet.
 uint path_load_depth(uint id) {
-    return floatBitsToUint(STATE(STATE_BITS, id).x) >> 14;
+    return STATE_WORDS(STATE_RAY, id).w;
 }
 
 // What a path's ray has met; `geometry` is NONE for a miss.
 void hit_store(uint id, HitPayload hit) {
     Quads state = push.view.state;
     uint n = push.view.capacity;
-    state.at[STATE_HIT * n + id] = vec4(uintBitsToFloat(uvec2(hit.geometry, hit.primitive)), hit.b);
-    state.at[STATE_RAY * n + id].w = hit.t;
+    state.at[STATE_HIT * n + id] = uvec4(hit.geometry, hit.primitive, floatBitsToUint(hit.b));
+    state.at[STATE_RAY * n + id].w = floatBitsToUint(hit.t);
 }
 
 // False for a miss.
 bool hit_load(uint id, out Hit hit) {
-    vec4 met = STATE(STATE_HIT, id);
-    uint geometry = floatBitsToUint(met.x);
-    if (geometry == NONE) {
+    uvec4 met = STATE_WORDS(STATE_HIT, id);
+    if (met.x == NONE) {
         return false;
     }
-    hit = hit_of(geometry, floatBitsToUint(met.y), met.zw, STATE(STATE_RAY, id).w);
+    hit = hit_of(met.x, met.y, uintBitsToFloat(met.zw), uintBitsToFloat(STATE_WORDS(STATE_RAY, id).w));
     return true;
 }
 
@@ -251,10 +273,12 @@ void pending_store(uint group, uint id, PendingLight light, uint depth) {
     uint slot = pending_slot(push.parity, group);
     uint place = STATE_SHADOW + 4u * slot;
     uint bits = (light.solids_pass ? 1u : 0u) | (depth << 1);
-    state.at[place * n + id] = vec4(light.ray.origin, light.ray.t_max);
-    state.at[(place + 1u) * n + id] = vec4(light.ray.dir, uintBitsToFloat(bits));
-    state.at[(place + 2u) * n + id] = vec4(light.contribution, light.mis_weight);
-    state.at[(place + 3u) * n + id] = vec4(light.prob, light.wavelength, 0.0, 0.0);
+    state.at[place * n + id] = floatBitsToUint(vec4(light.ray.origin, light.ray.t_max));
+    state.at[(place + 1u) * n + id] = uvec4(floatBitsToUint(light.ray.dir), bits);
+    state.at[(place + 2u) * n + id] = floatBitsToUint(vec4(light.contribution, light.mis_weight));
+    if (PENDING_HAS_MORE) {
+        state.at[(place + 3u) * n + id] = floatBitsToUint(vec4(light.prob, light.wavelength, 0.0, 0.0));
+    }
     if (HAS_SOLID) {
         media_store(STATE_SHADOW_MEDIA + 2u * slot, id, light.media);
     }
@@ -263,20 +287,20 @@ void pending_store(uint group, uint id, PendingLight light, uint depth) {
 // What a shadow ray has brought, in the place of what it would bring.
 void pending_arrived(uint group, uint id, Spectrum arrived) {
     Quads state = push.view.state;
-    state.at[(STATE_SHADOW + 4u * pending_slot(push.parity, group) + 2u) * push.view.capacity + id] = vec4(arrived, 0.0);
+    state.at[(STATE_SHADOW + 4u * pending_slot(push.parity, group) + 2u) * push.view.capacity + id] = floatBitsToUint(vec4(arrived, 0.0));
 }
 
 PendingLight pending_load(uint group, uint id, out uint depth) {
     uint slot = pending_slot(push.parity, group);
     uint place = STATE_SHADOW + 4u * slot;
     vec4 ray = STATE(place, id);
-    vec4 direction = STATE(place + 1u, id);
+    uvec4 direction = STATE_WORDS(place + 1u, id);
     vec4 contribution = STATE(place + 2u, id);
-    vec4 more = STATE(place + 3u, id);
-    uint bits = floatBitsToUint(direction.w);
+    vec4 more = PENDING_HAS_MORE ? STATE(place + 3u, id) : vec4(1.0, 0.0, 0.0, 0.0);
+    uint bits = direction.w;
     depth = bits >> 1;
     PendingLight light;
-    light.ray = Ray(ray.xyz, direction.xyz, 0.0, ray.w, 0.0);
+    light.ray = Ray(ray.xyz, uintBitsToFloat(direction.xyz), 0.0, ray.w, 0.0);
     light.contribution = contribution.xyz;
     light.mis_weight = contribution.w;
     light.prob = more.x;

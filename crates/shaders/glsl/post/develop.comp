@@ -17,9 +17,11 @@ struct Taps {
     vec2 share;
 };
 
-Taps taps(vec2 offset, float scale) {
-    // In units of pixels, the centre of the first one at 0.
-    vec2 at = clamp(offset / scale + push.center - 0.5, vec2(0.0), vec2(push.size - 1u));
+Taps taps(vec2 offset, float shrink) {
+    // In units of pixels, the centre of the first one at 0. `precise` and without a quotient: beside a spark, a place that is off by
+    // a rounding would show another brightness.
+    precise vec2 place = offset * shrink + push.center - 0.5;
+    vec2 at = clamp(place, vec2(0.0), vec2(push.size - 1u));
     uvec2 low = uvec2(at);
     uvec2 high = min(low + 1u, push.size - 1u);
     uint w = push.size.x;
@@ -35,14 +37,14 @@ float mixed(Taps t, float a, float b, float c, float d) {
 
 // What an enlargement about the centre brings to a place, of one band.
 float bilinear_band(vec2 offset, uint band) {
-    Taps t = taps(offset, push.scales[band]);
+    Taps t = taps(offset, push.shrinks[band]);
     return mixed(
         t, film_radiance(t.at[0])[band], film_radiance(t.at[1])[band], film_radiance(t.at[2])[band],
         film_radiance(t.at[3])[band]);
 }
 
-float bilinear_alpha(vec2 offset, float scale) {
-    Taps t = taps(offset, scale);
+float bilinear_alpha(vec2 offset, float shrink) {
+    Taps t = taps(offset, shrink);
     return mixed(t, film_alpha(t.at[0]), film_alpha(t.at[1]), film_alpha(t.at[2]), film_alpha(t.at[3]));
 }
 
@@ -58,8 +60,8 @@ float lens_alpha(uint at, vec2 offset) {
     if (push.aberrates == 0u) {
         return film_alpha(at);
     }
-    float red_green = max(bilinear_alpha(offset, push.scales.r), bilinear_alpha(offset, push.scales.g));
-    return max(red_green, bilinear_alpha(offset, push.scales.b));
+    float red_green = max(bilinear_alpha(offset, push.shrinks.r), bilinear_alpha(offset, push.shrinks.g));
+    return max(red_green, bilinear_alpha(offset, push.shrinks.b));
 }
 
 void main() {

@@ -44,9 +44,9 @@ layout(push_constant, scalar) uniform PostPush {
     // From the film's top left corner to the centre of the picture, pixels.
     vec2 center;
     float half_diagonal;
-    // 1: bands are enlarged about the centre by `scales`.
+    // 1: bands are enlarged about the centre, each by one over `shrinks`.
     uint aberrates;
-    vec3 scales;
+    vec3 shrinks;
     // 1: colours are those of what is there, with alpha.
     uint transparent;
 } push;

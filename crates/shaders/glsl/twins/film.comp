@@ -36,17 +36,17 @@ void main() {
     if (i >= push.count) {
         return;
     }
-    push.outputs.at[i].sums = push.inputs.at[i].start;
+    PixelSums sums = push.inputs.at[i].start;
     push.outputs.at[i].count = 0u;
-    // The pixel lies in the output, and the list behind it.
+    // The list lies in the output, behind the pixel.
     const uint64_t STRIDE = 160ul + 4ul + 12ul * uint64_t(SAMPLES) + 12ul;
     uint64_t address = uint64_t(push.outputs) + STRIDE * uint64_t(i);
-    FilmPixels film = FilmPixels(address);
     NonFiniteList list = NonFiniteList(address + 160ul);
     for (uint k = 0u; k < SAMPLES; ++k) {
         Sample s = push.inputs.at[i].samples[k];
         FilmSample added = FilmSample(
             s.radiance, s.has_hit == 1u, s.albedo, s.normal, s.position, s.depth, s.alpha);
-        film_add(film, list, 0u, push.inputs.at[i].pixel, 7u + k, added);
+        film_add(sums, list, push.inputs.at[i].pixel, 7u + k, added);
     }
+    push.outputs.at[i].sums = sums;
 }

@@ -1,7 +1,8 @@
 //! Twin tests: shader functions against the Rust functions that they repeat, on the same inputs.
 //!
 //! A kernel of `crates/shaders/glsl/twins` evaluates the shader's side; each file here is named after the kernel and evaluates
-//! Rust's. Each has a sibling that shows that it fails when one side is disturbed.
+//! Rust's. Each has a sibling that shows that it fails when one side is disturbed. Most run twice ([`each_way`]), so that a driver that rounds
+//! correctly shows what cards that round as Vulkan allows would.
 
 mod bsdf;
 mod camera;
@@ -22,6 +23,7 @@ mod wavelength;
 
 use bytemuck::Pod;
 use lumbre_vulkan::Specialisation;
+use std::cell::Cell;
 
 /// SPIR-V of a kernel.
 macro_rules! kernel {
@@ -30,6 +32,20 @@ macro_rules! kernel {
     };
 }
 pub(crate) use kernel;
+
+thread_local! {
+    /// Kernels of this thread's test run as imprecisely as Vulkan allows.
+    static LEAST_PRECISE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs a test as the device computes, and as imprecisely as a device may ([`lumbre_testkit::inexact`]).
+pub(crate) fn each_way(test: impl Fn()) {
+    for least in [false, true] {
+        LEAST_PRECISE.set(least);
+        test();
+    }
+    LEAST_PRECISE.set(false);
+}
 
 /// What a kernel says to the inputs; `None` where there is no device. `tables` is what the kernel reads as `push.tables`.
 pub(crate) fn evaluate<I: Pod, O: Pod>(spirv: &[u8], tables: &[u8], inputs: &[I]) -> Option<Vec<O>> {
@@ -44,6 +60,8 @@ pub(crate) fn evaluate_with<I: Pod, O: Pod>(
     inputs: &[I],
 ) -> Option<Vec<O>> {
     let gpu = lumbre_testkit::gpu()?;
+    let least = LEAST_PRECISE.get().then(|| lumbre_testkit::inexact::inexact(spirv));
+    let spirv = least.as_deref().unwrap_or(spirv);
     let kernel = gpu.kernel(spirv, tables, constants).unwrap_or_else(|e| panic!("{e}"));
     Some(kernel.run(inputs).unwrap_or_else(|e| panic!("{e}")))
 }

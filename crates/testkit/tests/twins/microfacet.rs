@@ -1,7 +1,7 @@
 //! `microfacet.glsl` against `lumbre_core::microfacet`.
 
 use super::columns::{Columns, Numbers};
-use super::{evaluate, kernel};
+use super::{each_way, evaluate, kernel};
 use bytemuck::{Pod, Zeroable};
 use lumbre_core::math::Vec3;
 use lumbre_core::microfacet::{ALPHA_SMOOTH, Ggx, reflect};
@@ -98,7 +98,7 @@ fn columns() -> Columns {
 }
 
 /// True where a rounding of each random number and of `wo` moves the normal by many: it is drawn as the sum of two
-/// unit vectors, which at grazing angles nearly cancel.
+/// unit vectors, which at grazing angles nearly cancel. Devices may be off by five roundings (of a root): a fifth of the tolerance.
 fn is_unsteady(i: &Input) -> bool {
     let normal = |i: &Input| Vec3::from_array(twin(i).normal);
     let more = |x: f32| x * (1.0 + f32::EPSILON);
@@ -110,7 +110,7 @@ fn is_unsteady(i: &Input) -> bool {
         Input { u: [u + f32::EPSILON, v], ..*i },
         Input { u: [u, v + f32::EPSILON], ..*i },
     ];
-    moved.iter().map(|m| (normal(m) - normal(i)).abs().max_element()).sum::<f32>() > 3e-6
+    moved.iter().map(|m| (normal(m) - normal(i)).abs().max_element()).sum::<f32>() > 2e-6
 }
 
 /// Share of rows that cards whose roots are off by several roundings move further than the limit above foresees.
@@ -118,13 +118,15 @@ const NEARLY_UNSTEADY: f64 = 1e-4;
 
 #[test]
 fn facets_are_the_same() {
-    let mut inputs = inputs();
-    let all = inputs.len();
-    inputs.retain(|i| !is_unsteady(i));
-    assert!(inputs.len() > all - all / 20, "{} of {all} are steady", inputs.len());
-    let Some(gpu) = evaluate::<_, Output>(kernel!("microfacet"), &[], &inputs) else { return };
-    let rust: Vec<_> = inputs.iter().map(twin).collect();
-    columns().assert_near(&rust, &gpu, NEARLY_UNSTEADY);
+    each_way(|| {
+        let mut inputs = inputs();
+        let all = inputs.len();
+        inputs.retain(|i| !is_unsteady(i));
+        assert!(inputs.len() > all - all / 20, "{} of {all} are steady", inputs.len());
+        let Some(gpu) = evaluate::<_, Output>(kernel!("microfacet"), &[], &inputs) else { return };
+        let rust: Vec<_> = inputs.iter().map(twin).collect();
+        columns().assert_near(&rust, &gpu, NEARLY_UNSTEADY);
+    });
 }
 
 /// A hundredth more in the width is found.

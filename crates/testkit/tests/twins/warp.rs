@@ -1,7 +1,7 @@
 //! `warp.glsl`, `frame.glsl` and `mis.glsl` against their twins in `lumbre_core`.
 
 use super::columns::{Columns, Numbers};
-use super::{evaluate, kernel};
+use super::{each_way, evaluate, kernel};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use lumbre_core::mis::power_heuristic;
@@ -121,10 +121,12 @@ fn twin(i: &Input) -> Output {
 
 #[test]
 fn warps_and_frames_agree() {
-    let inputs = inputs();
-    let Some(gpu) = evaluate::<_, Output>(kernel!("warp"), &[], &inputs) else { return };
-    let rust: Vec<_> = inputs.iter().map(twin).collect();
-    columns().assert_near(&rust, &gpu, 0.0);
+    each_way(|| {
+        let inputs = inputs();
+        let Some(gpu) = evaluate::<_, Output>(kernel!("warp"), &[], &inputs) else { return };
+        let rust: Vec<_> = inputs.iter().map(twin).collect();
+        columns().assert_near(&rust, &gpu, 0.0);
+    });
 }
 
 #[test]

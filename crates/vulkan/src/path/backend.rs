@@ -1,6 +1,7 @@
 //! A scene on a GPU, rendered into films. Twin of the loop over tiles: `cpu/src/backend.rs`.
 
 mod canvas;
+mod edited;
 mod own_rays;
 
 pub use canvas::Canvas;
@@ -9,7 +10,7 @@ pub use own_rays::{OwnRays, RayBatch, Replayed};
 use super::code::Code;
 use super::film::FilmOnGpu;
 use super::media::Solids;
-use super::passes::{HeadsReadback, LEAST_PATHS, MOST_PATHS, NAMES, Passes, Paths, paths_per_sample};
+use super::passes::{Extent, HeadsReadback, LEAST_PATHS, MOST_PATHS, Passes, Paths, paths_per_sample};
 use super::slices::{Pace, Slice, Slices};
 use super::variant::{Needs, SceneConstants};
 use crate::{
@@ -21,7 +22,7 @@ use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::{Crop, Film};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::{RenderSettings, View};
-use lumbre_scene::{CompiledScene, Part, SceneChanges};
+use lumbre_scene::CompiledScene;
 use lumbre_shaders as shaders;
 use lumbre_shaders::view::{Push, QueueHeads, ViewTable, queue};
 use std::collections::VecDeque;
@@ -29,11 +30,14 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Choices of settings whose pipelines are kept.
-const VARIANTS: usize = 4;
+/// Choices of settings and features whose pipelines are kept.
+const VARIANTS: usize = 8;
 
 /// Most scattering events of one submission; longer paths take several.
 const MOST_STEPS: u32 = 64;
+
+/// Shadow catchers that a path passes within its first submission; more take another one.
+const SOME_CATCHERS: u32 = 4;
 
 /// A scene ready to be rendered on a GPU.
 pub struct VulkanBackend {
@@ -68,7 +72,7 @@ struct Work {
     /// The solids around the last place of the camera.
     media: Option<(Vec3, MediumStack)>,
     pace: Pace,
-    times: [PassTime; NAMES.len()],
+    times: Vec<PassTime>,
 }
 
 impl Work {
@@ -82,13 +86,9 @@ impl Work {
             paths: None,
             media: None,
             pace: Pace::default(),
-            times: no_times(),
+            times: Vec::new(),
         }
     }
-}
-
-fn no_times() -> [PassTime; NAMES.len()] {
-    NAMES.map(|name| PassTime { name, ..PassTime::default() })
 }
 
 /// Time that the GPU spent on one of its passes, by its own clock.
@@ -128,7 +128,8 @@ struct Shot {
     /// What its pipelines are specialised for.
     constants: Specialisation,
     passes: Arc<Passes>,
-    push: Push,
+    /// Of each half.
+    push: [Push; 2],
     /// Steps of one submission, and whether paths cannot take more.
     steps: u32,
     complete: bool,
@@ -140,9 +141,10 @@ struct Shot {
 struct Flight {
     timer: Timer,
     heads: HeadsReadback,
-    /// Pass of each stamp but the first.
-    stamps: Vec<usize>,
 }
+
+/// A submission under way, and what lies between its stamps.
+struct Submitted(Pending, Vec<&'static str>);
 
 /// Rays of a slice.
 #[derive(Clone, Copy, Debug, Default)]
@@ -152,14 +154,18 @@ struct Rays {
 }
 
 impl Shot {
-    /// Rays of a slice whose last submission left these heads.
-    fn rays(&self, slice: &Slice, heads: &QueueHeads) -> Rays {
-        // Blocks that reach outside have places in the first list, but no rays.
-        let outside = paths_per_sample(slice.size) * slice.samples.len() as u64 - slice.count();
+    /// Rays of a slice in so many parts whose last submission left these heads.
+    fn rays(&self, slice: &Slice, heads: &[QueueHeads]) -> Rays {
         // Those of the last step have not been counted yet.
         let list = queue::SHADOW + 2 * (1 - self.steps % 2);
-        let last: u64 = (list..list + 2).map(|l| u64::from(heads.at[l as usize].count)).sum();
-        Rays { path: u64::from(heads.path_rays) - outside, shadow: u64::from(heads.shadow_rays) + last }
+        let last =
+            |h: &QueueHeads| -> u64 { (list..list + 2).map(|l| u64::from(h.at[l as usize].count)).sum() };
+        // Blocks that reach outside have places in the first list, but no rays.
+        let outside = slice.paths() - slice.count();
+        Rays {
+            path: heads.iter().map(|h| u64::from(h.path_rays)).sum::<u64>() - outside,
+            shadow: heads.iter().map(|h| u64::from(h.shadow_rays) + last(h)).sum(),
+        }
     }
 }
 
@@ -185,33 +191,6 @@ impl VulkanBackend {
         })
     }
 
-    /// Takes an edited scene, which differs from the present one in `changes`: what it then draws is what a new backend with the same
-    /// options would draw. What changed goes to the device; pipelines are made again only when the scene needs a feature that those there are
-    /// lack, and acceleration structures of meshes only where [`SceneOnGpu::update`] says so.
-    ///
-    /// # Errors
-    /// If memory is out or the device is lost. Nothing can be drawn then until another update succeeds.
-    pub fn update(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<(), VulkanError> {
-        // What a failure left is made anew.
-        let changes = if self.failed.is_some() { SceneChanges::all() } else { changes };
-        self.failed = self.take(scene, changes).err();
-        self.failed.clone().map_or(Ok(()), Err)
-    }
-
-    fn take(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<(), VulkanError> {
-        let work = self.work.get_mut().unwrap_or_else(PoisonError::into_inner);
-        if self.scene.update(scene, changes)? {
-            work.variants.clear();
-        }
-        let moved = changes.geometry() || changes.any(&[Part::Instances, Part::Transforms]);
-        if moved || changes.has(Part::Materials) {
-            self.solids.update(scene, moved);
-            work.media = None;
-        }
-        self.constants = SceneConstants::new(scene);
-        Ok(())
-    }
-
     /// The device.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
@@ -224,7 +203,7 @@ impl VulkanBackend {
 
     /// What the passes took since the scene was brought here.
     pub fn pass_times(&self) -> Vec<PassTime> {
-        ran(&self.lock().times)
+        self.lock().times.clone()
     }
 
     fn lock(&self) -> MutexGuard<'_, Work> {
@@ -277,8 +256,8 @@ impl VulkanBackend {
                 break;
             }
             let began = Instant::now();
-            self.submit(work, &shot, &flight, (&slice, true))?.wait()?;
-            note(&mut work.times, &flight)?;
+            let submitted = self.submit(work, &shot, &flight, (&slice, true))?;
+            submitted.noted(&flight, &mut work.times)?;
             let Some(rays) = self.finish(work, &shot, &flight, (&slice, control))? else { break };
             work.pace.learn(slice.count(), began.elapsed().as_secs_f64());
             done.samples += slice.count();
@@ -303,7 +282,7 @@ impl VulkanBackend {
         }
         let capacity = u64::from(work.paths.as_ref().expect("the shot made them").capacity());
         let flights = [self.flight(&shot, true)?, self.flight(&shot, true)?];
-        let (mut frames, mut times) = (Frames::default(), no_times());
+        let mut frames = Frames::default();
         // All slices of all frames, in order; a frame is done with its last one.
         let mut slices: Vec<(Slice, bool)> = Vec::new();
         for frame in 0..count {
@@ -311,7 +290,7 @@ impl VulkanBackend {
             slices.extend(std::iter::from_fn(|| of_frame.next(&Pace::unbounded())).map(|s| (s, false)));
             slices.last_mut().into_iter().for_each(|s| s.1 = true);
         }
-        let mut pending: VecDeque<Pending> = VecDeque::new();
+        let mut pending: VecDeque<Submitted> = VecDeque::new();
         let mut last = Instant::now();
         for i in 0..slices.len() + 1 {
             if let Some((slice, _)) = slices.get(i) {
@@ -319,10 +298,9 @@ impl VulkanBackend {
             }
             // The slice before ends while this one is under way.
             let Some((slice, ends)) = i.checked_sub(1).and_then(|i| slices.get(i)) else { continue };
-            pending.pop_front().expect("one slice for each turn").wait()?;
-            let flight = &flights[(i - 1) % 2];
-            note(&mut times, flight)?;
-            let (rays, now) = (shot.rays(slice, &flight.heads.read()), Instant::now());
+            let (flight, before) = (&flights[(i - 1) % 2], pending.pop_front());
+            before.expect("one slice for each turn").noted(flight, &mut frames.passes)?;
+            let (rays, now) = (self.rays(&work, &shot, slice, flight), Instant::now());
             frames.progress.rays += rays.path + rays.shadow;
             *frames.path_rays.get_or_insert_default() += rays.path;
             if *ends {
@@ -331,7 +309,6 @@ impl VulkanBackend {
             }
         }
         frames.progress.samples = u64::from(size[0]) * u64::from(size[1]) * u64::from(spp) * u64::from(count);
-        frames.passes = ran(&times);
         Ok(frames)
     }
 
@@ -356,12 +333,14 @@ impl VulkanBackend {
     }
 
     fn flight(&self, shot: &Shot, begins: bool) -> Result<Flight, VulkanError> {
-        let stamps = shot.passes.stamps(begins, shot.steps, shot.complete);
-        Ok(Flight {
-            timer: Timer::new(&self.gpu, stamps.len() + 1)?,
-            heads: HeadsReadback::new(&self.gpu)?,
-            stamps,
-        })
+        let stamps = shot.passes.stamps(shot.extent(begins));
+        Ok(Flight { timer: Timer::new(&self.gpu, stamps)?, heads: HeadsReadback::new(&self.gpu)? })
+    }
+
+    /// Rays of a slice that was waited for.
+    fn rays(&self, work: &Work, shot: &Shot, slice: &Slice, flight: &Flight) -> Rays {
+        let parts = work.paths.as_ref().expect("the shot made them").halves(slice).len();
+        shot.rays(slice, &flight.heads.read()[..parts])
     }
 
     /// Submits the beginning of a slice, or further steps of its paths.
@@ -371,17 +350,17 @@ impl VulkanBackend {
         shot: &Shot,
         flight: &Flight,
         (slice, begins): (&Slice, bool),
-    ) -> Result<Pending, VulkanError> {
+    ) -> Result<Submitted, VulkanError> {
         let paths = work.paths.as_ref().expect("the shot made them");
-        let push = shot.of(slice);
-        let needed = paths_per_sample(slice.size) * slice.samples.len() as u64;
-        assert!(needed <= paths.capacity().into(), "{slice:?} has no room");
-        self.gpu.submit("path tracing", |commands| {
-            let what = (&push, begins, shot.steps, shot.complete);
-            shot.passes.record(commands, paths, &flight.timer, what);
+        assert!(slice.paths() <= paths.capacity().into(), "{slice:?} has no room");
+        let parts = shot.of(&paths.halves(slice));
+        let mut names = Vec::new();
+        let pending = self.gpu.submit("path tracing", |commands| {
+            names = shot.passes.record(commands, paths, &flight.timer, (&parts, shot.extent(begins)));
             shot.passes.copy_heads(commands, paths, &flight.heads);
             Ok(())
-        })
+        })?;
+        Ok(Submitted(pending, names))
     }
 
     /// Goes on until the last path of a slice has ended, and brings it to the film, where the first submission could not. `None` when
@@ -393,27 +372,28 @@ impl VulkanBackend {
         first: &Flight,
         (slice, control): (&Slice, &dyn Control),
     ) -> Result<Option<Rays>, VulkanError> {
-        let mut heads = first.heads.read();
         if shot.complete {
-            return Ok(Some(shot.rays(slice, &heads)));
+            return Ok(Some(self.rays(work, shot, slice, first)));
         }
-        // An even number of steps: each submission finds the paths in the first list.
+        let parts = work.paths.as_ref().expect("the shot made them").halves(slice);
         let flight = self.flight(shot, false)?;
-        while heads.at[queue::PATHS as usize].count > 0 {
+        let mut last = first;
+        let goes_on = |heads: &QueueHeads| heads.at[queue::PATHS as usize].count > 0;
+        while last.heads.read()[..parts.len()].iter().any(goes_on) {
             if control.cancelled() {
                 return Ok(None);
             }
-            self.submit(work, shot, &flight, (slice, false))?.wait()?;
-            note(&mut work.times, &flight)?;
-            heads = flight.heads.read();
+            self.submit(work, shot, &flight, (slice, false))?.noted(&flight, &mut work.times)?;
+            last = &flight;
         }
         let paths = work.paths.as_ref().expect("the shot made them");
-        let timer = Timer::new(&self.gpu, 2)?;
+        let extent = Extent { begins: false, steps: 0, ends: true };
+        let timer = Timer::new(&self.gpu, shot.passes.stamps(extent))?;
         self.gpu.run("gathering paths", |commands| {
-            shot.passes.record(commands, paths, &timer, (&shot.of(slice), false, 0, true));
+            shot.passes.record(commands, paths, &timer, (&shot.of(&parts), extent));
             Ok(())
         })?;
-        Ok(Some(shot.rays(slice, &heads)))
+        Ok(Some(self.rays(work, shot, slice, last)))
     }
 
     /// The film that the backend keeps for renders, empty, with room for one like this.
@@ -445,24 +425,26 @@ impl VulkanBackend {
             Some((at, media)) if at == eye => media,
             _ => work.media.insert((eye, self.solids.around(eye))).1,
         };
-        let table = self.view_table(view, target, work.paths.as_ref().expect("made above"), &media);
+        let tables = self.view_tables(view, target, work.paths.as_ref().expect("made above"), &media);
         let mut upload = Upload::new(&self.gpu);
-        let table = Buffer::with_content(&mut upload, "view", bytemuck::bytes_of(&table))?;
+        let table = Buffer::with_content(&mut upload, "view", bytemuck::cast_slice(&tables))?;
         upload.finish()?;
-        let push = Push {
+        let push = [0, 1].map(|half| Push {
             tables: self.tables.address(),
             scene: self.scene.address(),
-            view: table.address(),
+            view: table.address() + half * size_of::<ViewTable>() as u64,
             first_pixel: [0, 0],
             size: [0, 0],
             first_sample: 0,
             sample_count: 0,
             parity: 0,
             group: 0,
-        };
+        });
         let steps = max_depth(&view.settings) + 1;
         let complete = steps <= MOST_STEPS && !needs.catchers;
-        let steps = if complete { steps } else { MOST_STEPS };
+        // Even: each submission finds the paths in the first list. A catcher takes a step of its own.
+        let steps =
+            if complete { steps } else { (steps + SOME_CATCHERS).next_multiple_of(2).min(MOST_STEPS) };
         Ok(Shot { constants, passes, push, steps, complete, _view: table })
     }
 
@@ -476,11 +458,17 @@ impl VulkanBackend {
         }
     }
 
-    fn view_table(&self, view: &View, target: &Target, paths: &Paths, media: &MediumStack) -> ViewTable {
+    /// Of each half.
+    fn view_tables(
+        &self,
+        view: &View,
+        target: &Target,
+        paths: &Paths,
+        media: &MediumStack,
+    ) -> [ViewTable; 2] {
         let settings = &view.settings;
         let Target { picture, crop, film: [film, non_finite] } = *target;
-        let [state, queues, heads] = paths.addresses();
-        ViewTable {
+        paths.addresses().map(|[state, queues, heads]| ViewTable {
             film,
             non_finite,
             state,
@@ -500,7 +488,7 @@ impl VulkanBackend {
             unused: 0,
             camera: (&view.camera).into(),
             media: media.into(),
-        }
+        })
     }
 
     /// The pipelines for these settings, made if there are none yet.
@@ -531,33 +519,42 @@ impl VulkanBackend {
 }
 
 impl Shot {
-    fn of(&self, slice: &Slice) -> Push {
-        Push {
+    /// The parts of a slice, one or two.
+    fn of(&self, parts: &[Slice]) -> Vec<Push> {
+        let part = |(push, slice): (&Push, &Slice)| Push {
             first_pixel: slice.first_pixel,
             size: slice.size,
             first_sample: slice.samples.start,
             sample_count: slice.samples.len() as u32,
-            ..self.push
+            ..*push
+        };
+        self.push.iter().zip(parts).map(part).collect()
+    }
+
+    /// What a submission does.
+    fn extent(&self, begins: bool) -> Extent {
+        Extent { begins, steps: self.steps, ends: self.complete }
+    }
+}
+
+impl Submitted {
+    /// Waits, and adds its times.
+    fn noted(self, flight: &Flight, times: &mut Vec<PassTime>) -> Result<(), VulkanError> {
+        self.0.wait()?;
+        let ms = flight.timer.milliseconds()?;
+        for (pair, name) in ms.windows(2).zip(self.1) {
+            let at = times.iter().position(|t| t.name == name).unwrap_or_else(|| {
+                times.push(PassTime { name, ..PassTime::default() });
+                times.len() - 1
+            });
+            times[at].count += 1;
+            times[at].total_ms += pair[1] - pair[0];
         }
+        Ok(())
     }
 }
 
 /// Most scattering events of a path.
 fn max_depth(settings: &RenderSettings) -> u32 {
     settings.max_depth.map_or(RenderSettings::DEPTH_BOUND, |d| d.min(RenderSettings::DEPTH_BOUND))
-}
-
-/// Adds the times of a submission that was waited for.
-fn note(times: &mut [PassTime], flight: &Flight) -> Result<(), VulkanError> {
-    let ms = flight.timer.milliseconds()?;
-    for (pair, &pass) in ms.windows(2).zip(&flight.stamps) {
-        times[pass].count += 1;
-        times[pass].total_ms += pair[1] - pair[0];
-    }
-    Ok(())
-}
-
-/// Those that ran.
-fn ran(times: &[PassTime]) -> Vec<PassTime> {
-    times.iter().filter(|t| t.count > 0).copied().collect()
 }

@@ -3,6 +3,7 @@
 //! For those who change shaders: `LUMBRE_SHADERS=crates/shaders/spirv` names the folder, `cargo xtask shaders` writes it, and the next render
 //! uses it, in a program that runs on.
 
+use super::variant::Needs;
 use crate::{HitShaders, RayShaders};
 use lumbre_shaders::{self as shaders, passes};
 
@@ -25,6 +26,16 @@ pub(super) struct Code {
 
 type Stage = std::borrow::Cow<'static, [u8]>;
 
+/// Rays that a pass traces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kinds {
+    /// Those that look for the closest surface.
+    Radiance,
+    /// Those that ask whether light arrives.
+    Shadow,
+    Both,
+}
+
 impl Code {
     /// That of `lumbre-shaders`.
     pub(super) fn embedded() -> Self {
@@ -45,17 +56,31 @@ impl Code {
         }
     }
 
-    /// The shaders of a pass that traces rays. Class by class as `HitClass` has them: opaque surfaces ask nothing; transmissive ones are
-    /// asked by shadow rays, those that are there only in part by all.
-    pub(super) fn rays<'a>(&'a self, raygen: &'a [u8]) -> RayShaders<'a> {
-        let nothing = HitShaders { closest: None, any: None };
-        let closest = HitShaders { closest: Some(&self.radiance_rchit), any: None };
-        let covered = HitShaders { any: Some(&self.radiance_rahit), ..closest };
-        let shadow = HitShaders { closest: None, any: Some(&self.shadow_rahit) };
+    /// The shaders of a pass that traces rays of these kinds. Class by class as `HitClass` has them: opaque surfaces ask nothing; transmissive
+    /// ones are asked by shadow rays, those that are there only in part by all. What the pass or the scene does not need is not compiled;
+    /// its places in the table stay.
+    pub(super) fn rays<'a>(&'a self, raygen: &'a [u8], kinds: Kinds, needs: &Needs) -> RayShaders<'a> {
+        let (radiance, shadow) = (kinds != Kinds::Shadow, kinds != Kinds::Radiance);
+        let closest = HitShaders { closest: radiance.then_some(&*self.radiance_rchit), any: None };
+        let covered =
+            HitShaders { any: (radiance && needs.covered).then_some(&*self.radiance_rahit), ..closest };
+        let asks = |needed: bool| HitShaders {
+            closest: None,
+            any: (shadow && needed).then_some(&*self.shadow_rahit),
+        };
+        // A ray of the other kind is never traced: its miss shader can be any.
+        let [radiance_rmiss, shadow_rmiss] = [&*self.radiance_rmiss, &*self.shadow_rmiss];
         RayShaders {
             raygen,
-            miss: [&self.radiance_rmiss, &self.shadow_rmiss],
-            hits: [[closest, nothing], [closest, shadow], [covered, shadow]],
+            miss: [
+                if radiance { radiance_rmiss } else { shadow_rmiss },
+                if shadow { shadow_rmiss } else { radiance_rmiss },
+            ],
+            hits: [
+                [closest, asks(false)],
+                [closest, asks(needs.transmission)],
+                [covered, asks(needs.covered)],
+            ],
         }
     }
 }

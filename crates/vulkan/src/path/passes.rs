@@ -1,9 +1,12 @@
 //! The passes of the path tracer over all paths of a slice, and the memory in which these are under way.
 //!
 //! ```text
-//! generate; for each scattering event: advance; trace, beside it the shadow rays of the
+//! generate; for each scattering event: trace, beside it advance and the shadow rays of the
 //! event before; shade, beside it glass; catch. At the end shadow, glass, gather
 //! ```
+//!
+//! The left half of a slice's columns is a step ahead of the right one, so that while one half traces the other shades: the few long rays
+//! that a launch ends with leave the device to others' shading.
 //!
 //! One ray generation shader that follows a path to its end, as the theses have it, was the first form of this: simple, and slow where rays
 //! are traced in software. On an H100 the pool at 1280x720 and depth 4 took 36.8 ms a frame (92 Mrays/s, of 1300 that a bare loop reaches there).
@@ -12,7 +15,8 @@
 //! which go on, launches are as long as the lists, and rays are traced by shaders that do nothing else. (Laine, Karras and Aila 2013, "Megakernels
 //! Considered Harmful".)
 
-use super::code::Code;
+use super::code::{Code, Kinds};
+use super::slices::Slice;
 use super::variant::Needs;
 use crate::compute::ComputePipeline;
 use crate::{
@@ -28,18 +32,6 @@ pub(super) const MOST_PATHS: u64 = 1 << 22;
 /// Fewest that there is always room for.
 pub(super) const LEAST_PATHS: u64 = 1 << 12;
 
-/// Names of the passes, in order.
-pub(super) const NAMES: [&str; 8] = [
-    "generate",
-    "advance",
-    "trace + shadow",
-    "shade + glass",
-    "last shadow",
-    "last glass",
-    "catch",
-    "gather",
-];
-
 /// Invocations of a work group.
 const GROUP: u32 = 64;
 
@@ -51,7 +43,8 @@ pub(super) struct Paths {
     short: bool,
     state: Buffer,
     queues: Buffer,
-    heads: Buffer,
+    /// Of each half.
+    heads: [Buffer; 2],
 }
 
 impl Paths {
@@ -61,13 +54,14 @@ impl Paths {
     /// If memory is out.
     pub(super) fn new(gpu: &Gpu, paths: u64, solids: bool) -> Result<Self, VulkanError> {
         let quads = STATE_QUADS[usize::from(solids)];
+        let heads = || Buffer::new(gpu, "lengths of lists", size_of::<QueueHeads>() as u64, Purpose::Data);
         Ok(Paths {
             capacity: paths as u32,
             solids,
             short: false,
             state: Buffer::new(gpu, "paths under way", paths * quads * 16, Purpose::Data)?,
             queues: Buffer::new(gpu, "lists of paths", paths * QUEUES as u64 * 4, Purpose::Data)?,
-            heads: Buffer::new(gpu, "lengths of lists", size_of::<QueueHeads>() as u64, Purpose::Data)?,
+            heads: [heads()?, heads()?],
         })
     }
 
@@ -87,10 +81,34 @@ impl Paths {
         self.capacity
     }
 
-    /// Addresses of state, lists and heads.
-    pub(super) fn addresses(&self) -> [u64; 3] {
-        [self.state.address(), self.queues.address(), self.heads.address()]
+    /// Addresses of state, lists and heads, of each half: the second's places begin in the middle. A slice that is not halved has all
+    /// places of the first.
+    pub(super) fn addresses(&self) -> [[u64; 3]; 2] {
+        let middle = u64::from(self.capacity) / 2;
+        let half = |i: u64| {
+            let (state, queues) =
+                (self.state.address() + i * middle * 16, self.queues.address() + i * middle * 4);
+            [state, queues, self.heads[i as usize].address()]
+        };
+        [half(0), half(1)]
     }
+
+    /// The halves of a slice, or the whole where it has too few columns.
+    pub(super) fn halves(&self, slice: &Slice) -> Vec<Slice> {
+        halves(slice, u64::from(self.capacity) / 2)
+    }
+}
+
+/// Left and right half of a slice if they have the room each; else the whole.
+fn halves(slice: &Slice, room: u64) -> Vec<Slice> {
+    let ([x, y], [width, height]) = (slice.first_pixel, slice.size);
+    let left = width.div_ceil(2).next_multiple_of(BLOCK[0]);
+    let part =
+        |x, width| Slice { first_pixel: [x, y], size: [width, height], samples: slice.samples.clone() };
+    if left >= width || part(x, left).paths() > room {
+        return vec![slice.clone()];
+    }
+    vec![part(x, left), part(x + left, width - left)]
 }
 
 /// Paths of one sample of so many pixels.
@@ -99,7 +117,7 @@ pub(super) fn paths_per_sample([width, height]: [u32; 2]) -> u64 {
     blocks(width, BLOCK[0]) * blocks(height, BLOCK[1])
 }
 
-/// Where the host reads the heads of the lists.
+/// Where the host reads the heads of the lists of both halves.
 pub(super) struct HeadsReadback(Buffer);
 
 impl HeadsReadback {
@@ -107,14 +125,15 @@ impl HeadsReadback {
         Ok(HeadsReadback(Buffer::new(
             gpu,
             "lengths on the host",
-            size_of::<QueueHeads>() as u64,
+            2 * size_of::<QueueHeads>() as u64,
             Purpose::Readback,
         )?))
     }
 
-    /// Those of the submission that copied them here.
-    pub(super) fn read(&self) -> QueueHeads {
-        self.0.read_as()[0]
+    /// Those of the submission that copied them here; the second are nothing where it had one part only.
+    pub(super) fn read(&self) -> [QueueHeads; 2] {
+        let both = self.0.read_as();
+        [both[0], both[1]]
     }
 }
 
@@ -131,24 +150,74 @@ pub(super) struct Passes {
     gather: ComputePipeline,
 }
 
-/// A recording of passes: what follows from step to step.
-struct Recording<'a> {
+/// What is done for a part between two barriers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Generate,
+    /// The closest surfaces; beside them, after another step, its shadow rays.
+    Trace {
+        after_another: bool,
+    },
+    /// What has been met; beside it, after another step, its shadow rays through glass.
+    Shade {
+        after_another: bool,
+    },
+    Catch,
+    /// The shadow rays of the last step.
+    Shadow,
+    /// Those of them through glass.
+    Glass,
+    Gather,
+}
+
+impl Phase {
+    /// Its name, and that of what runs beside it.
+    fn name(self) -> &'static str {
+        match self {
+            Phase::Generate => "generate",
+            Phase::Trace { .. } => "trace + shadow",
+            Phase::Shade { .. } => "shade + glass",
+            Phase::Catch => "catch",
+            Phase::Shadow => "last shadow",
+            Phase::Glass => "last glass",
+            Phase::Gather => "gather",
+        }
+    }
+
+    fn traces(self) -> bool {
+        !matches!(self, Phase::Generate | Phase::Shade { .. } | Phase::Gather)
+    }
+}
+
+/// What the time between two barriers is called.
+fn name(phases: &[Phase]) -> &'static str {
+    match phases {
+        [one] => one.name(),
+        [Phase::Trace { .. }, Phase::Shade { .. }] => "trace + shade",
+        _ => "mixed",
+    }
+}
+
+/// What a recording holds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    /// The beginning of the paths.
+    pub(super) begins: bool,
+    /// Scattering events.
+    pub(super) steps: u32,
+    /// The way to the film.
+    pub(super) ends: bool,
+}
+
+/// A part of a slice in a recording.
+struct Part<'a> {
     commands: &'a Commands<'a>,
-    timer: &'a Timer,
-    stamps: usize,
     push: Push,
     heads: &'a Buffer,
     most: u32,
 }
 
-impl Recording<'_> {
-    /// What follows waits for all before: notes when.
-    fn done(&mut self) {
-        self.timer.stamp(self.commands, self.stamps);
-        self.stamps += 1;
-        self.commands.barrier();
-    }
-
+impl Part<'_> {
     /// Where a list's length stands.
     fn head(&self, list: u32) -> (&Buffer, u64) {
         (self.heads, offset_of!(QueueHeads, at) as u64 + u64::from(list) * size_of::<QueueHead>() as u64)
@@ -173,36 +242,22 @@ impl Passes {
     ) -> Result<Self, VulkanError> {
         let push = size_of::<Push>() as u32;
         let compute = |code: &[u8]| ComputePipeline::of_scene(scene, code, constants, push, cache);
-        let rays = |raygen: &[u8]| RayPipeline::new(scene, &code.rays(raygen), constants, push, cache);
-        let rays_if = |needed: bool, raygen| needed.then(|| rays(raygen)).transpose();
+        let rays = |raygen: &[u8], kinds| {
+            RayPipeline::new(scene, &code.rays(raygen, kinds, &needs), constants, push, cache)
+        };
+        let rays_if = |needed: bool, raygen, kinds| needed.then(|| rays(raygen, kinds)).transpose();
         let shadows = light_sampling && needs.lights.contains(&true);
         Ok(Passes {
             needs,
             generate: compute(&code.generate)?,
             advance: compute(&code.advance)?,
-            trace: rays(&code.trace)?,
+            trace: rays(&code.trace, Kinds::Radiance)?,
             shade: compute(&code.shade)?,
-            shadow: rays_if(shadows, &code.shadow)?,
-            glass: rays_if(shadows && needs.transmission, &code.glass)?,
-            catch: rays_if(needs.catchers, &code.catch)?,
+            shadow: rays_if(shadows, &code.shadow, Kinds::Shadow)?,
+            glass: rays_if(shadows && needs.transmission, &code.glass, Kinds::Radiance)?,
+            catch: rays_if(needs.catchers, &code.catch, Kinds::Both)?,
             gather: compute(&code.gather)?,
         })
-    }
-
-    /// The pass of each stamp of a recording with so many steps, the first stamp left out.
-    pub(super) fn stamps(&self, begins: bool, steps: u32, ends: bool) -> Vec<usize> {
-        let mut stamps = Vec::new();
-        stamps.extend(begins.then_some(0));
-        for _ in 0..steps {
-            stamps.extend([1, 2, 3]);
-            stamps.extend(self.catch.is_some().then_some(6));
-        }
-        // The last step of paths that cannot be longer asks for nothing.
-        if steps > 0 && !(begins && ends) {
-            stamps.extend([4, 5]);
-        }
-        stamps.extend(ends.then_some(7));
-        stamps
     }
 
     /// The groups of lights that shadow rays go to.
@@ -210,100 +265,154 @@ impl Passes {
         (0..2).filter(|&g| self.needs.lights[g as usize])
     }
 
-    /// Records the beginning of a slice's paths.
-    pub(super) fn begin(&self, commands: &Commands<'_>, paths: &Paths, push: &Push) {
-        let one = QueueHead { one_row: 1, one_layer: 1, ..QueueHead::default() };
-        let mut heads = QueueHeads { at: [one; QUEUES], groups: [0, 1, 1], ..QueueHeads::default() };
-        let count = paths_per_sample(push.size) as u32 * push.sample_count;
-        heads.at[queue::PATHS as usize].count = count;
-        commands.update(&paths.heads, bytes_of(&heads));
-        self.generate.dispatch(commands, bytes_of(push), [count.div_ceil(GROUP), 1]);
+    /// What is done for a part, one after another, each with the parity of its step.
+    fn phases(&self, extent: Extent) -> Vec<(Phase, u32)> {
+        let Extent { begins, steps, ends } = extent;
+        let mut phases = Vec::new();
+        phases.extend(begins.then_some((Phase::Generate, 0)));
+        for step in 0..steps {
+            let after_another = step > 0;
+            phases.extend([
+                (Phase::Trace { after_another }, step % 2),
+                (Phase::Shade { after_another }, step % 2),
+            ]);
+            phases.extend(self.catch.is_some().then_some((Phase::Catch, step % 2)));
+        }
+        // The last step of paths that cannot be longer asks for nothing.
+        if steps > 0 && !(begins && ends) {
+            phases.extend([(Phase::Shadow, steps % 2), (Phase::Glass, steps % 2)]);
+        }
+        phases.extend(ends.then_some((Phase::Gather, steps % 2)));
+        phases
     }
 
-    /// Records the beginning of a slice's paths if it `begins`, `steps` scattering events, and if it `ends` the way to the film. Stamps as
-    /// [`Self::stamps`] says.
+    /// Stamps that a recording makes, at most.
+    pub(super) fn stamps(&self, extent: Extent) -> usize {
+        self.phases(extent).len() + 2
+    }
+
+    /// Records what is done for the parts of a slice, each as its push constants have it and a step behind the one before. Makes all stamps
+    /// of the timer; returns what is between them.
     pub(super) fn record(
         &self,
         commands: &Commands<'_>,
         paths: &Paths,
         timer: &Timer,
-        (push, begins, steps, ends): (&Push, bool, u32, bool),
-    ) {
+        (parts, extent): (&[Push], Extent),
+    ) -> Vec<&'static str> {
         timer.reset(commands);
         timer.stamp(commands, 0);
-        let most = paths_per_sample(push.size) as u32 * push.sample_count;
-        let mut r = Recording { commands, timer, stamps: 1, push: *push, heads: &paths.heads, most };
-        if begins {
-            self.begin(commands, paths, push);
-            r.done();
+        let phases = self.phases(extent);
+        let mut names = Vec::new();
+        for i in 0..phases.len() + parts.len() - 1 {
+            let at = |(behind, push)| {
+                Some((i.checked_sub(behind).and_then(|i| phases.get(i))?, push, &paths.heads[behind]))
+            };
+            let mut now: Vec<_> = parts.iter().enumerate().filter_map(at).collect();
+            // Rays first: what is shaded beside them fills what they leave.
+            now.sort_by_key(|((phase, _), ..)| !phase.traces());
+            for ((phase, parity), push, heads) in &now {
+                let most = paths_per_sample(push.size) as u32 * push.sample_count;
+                let push = Push { parity: (push.parity + parity) % 2, ..**push };
+                self.phase(&mut Part { commands, push, heads, most }, *phase);
+            }
+            names.push(name(&now.iter().map(|((phase, _), ..)| *phase).collect::<Vec<_>>()));
+            timer.stamp(commands, names.len());
+            commands.barrier();
         }
-        for step in 0..steps {
-            self.step(&mut r, step > 0);
-            r.push.parity = 1 - r.push.parity;
-        }
-        if steps > 0 && !(begins && ends) {
-            self.shadows(&mut r);
-            r.done();
-            self.glass(&mut r);
-            r.done();
-        }
-        if ends {
-            let groups = (paths_per_sample(push.size) as u32).div_ceil(GROUP);
-            self.gather.dispatch(commands, bytes_of(&r.push), [groups, 1]);
-            r.done();
-        }
-        assert_eq!(r.stamps, self.stamps(begins, steps, ends).len() + 1, "each stamp has a name");
+        // Stamps that are never made would be waited for.
+        (names.len() + 1..timer.stamps()).for_each(|stamp| timer.stamp(commands, stamp));
+        names
     }
 
-    /// One scattering event of all paths. The shadow rays of the one before are traced beside its rays, and those of them that meet glass are
-    /// followed while it shades: what few rays leave idle, other work fills.
-    fn step(&self, r: &mut Recording<'_>, after_another: bool) {
-        self.advance.dispatch(r.commands, bytes_of(&r.push), [1, 1]);
-        r.done();
-        r.rays(&self.trace, queue::PATHS + r.push.parity);
-        if after_another {
-            self.shadows(r);
+    fn phase(&self, part: &mut Part<'_>, phase: Phase) {
+        match phase {
+            Phase::Generate => self.generate(part),
+            Phase::Trace { after_another } => {
+                // It touches no list that is read here.
+                self.advance.dispatch(part.commands, bytes_of(&part.push), [1, 1]);
+                part.rays(&self.trace, queue::PATHS + part.push.parity);
+                if after_another {
+                    self.shadows(part);
+                }
+            }
+            Phase::Shade { after_another } => {
+                if after_another {
+                    self.glass(part);
+                }
+                let groups = (part.heads, offset_of!(QueueHeads, groups) as u64);
+                self.shade.dispatch_indirect(part.commands, bytes_of(&part.push), groups);
+            }
+            Phase::Catch => self.catch.iter().for_each(|catch| part.rays(catch, queue::CATCHERS)),
+            Phase::Shadow => self.shadows(part),
+            Phase::Glass => self.glass(part),
+            Phase::Gather => {
+                let groups = (paths_per_sample(part.push.size) as u32).div_ceil(GROUP);
+                self.gather.dispatch(part.commands, bytes_of(&part.push), [groups, 1]);
+            }
         }
-        r.done();
-        if after_another {
-            self.glass(r);
-        }
-        let groups = (r.heads, offset_of!(QueueHeads, groups) as u64);
-        self.shade.dispatch_indirect(r.commands, bytes_of(&r.push), groups);
-        r.done();
-        if let Some(catch) = &self.catch {
-            r.rays(catch, queue::CATCHERS);
-            r.done();
-        }
+    }
+
+    fn generate(&self, part: &Part<'_>) {
+        let one = QueueHead { one_row: 1, one_layer: 1, ..QueueHead::default() };
+        let mut heads = QueueHeads { at: [one; QUEUES], groups: [0, 1, 1], ..QueueHeads::default() };
+        heads.at[queue::PATHS as usize].count = part.most;
+        part.commands.update(part.heads, bytes_of(&heads));
+        self.generate.dispatch(part.commands, bytes_of(&part.push), [part.most.div_ceil(GROUP), 1]);
     }
 
     /// The shadow rays of the step before this parity, to both groups of lights.
-    fn shadows(&self, r: &mut Recording<'_>) {
+    fn shadows(&self, part: &mut Part<'_>) {
         if let Some(shadow) = &self.shadow {
-            self.for_lights(r, |r| r.rays(shadow, queue::SHADOW + 2 * r.push.parity + r.push.group));
+            self.for_lights(part, |p| p.rays(shadow, queue::SHADOW + 2 * p.push.parity + p.push.group));
         }
     }
 
     /// Those of them that meet what lets light through.
-    fn glass(&self, r: &mut Recording<'_>) {
+    fn glass(&self, part: &mut Part<'_>) {
         if let Some(glass) = &self.glass {
-            self.for_lights(r, |r| r.rays(glass, queue::GLASS + 2 * r.push.parity + r.push.group));
+            self.for_lights(part, |p| p.rays(glass, queue::GLASS + 2 * p.push.parity + p.push.group));
         }
     }
 
     /// Launches for each group of lights, for the paths of the step before.
-    fn for_lights(&self, r: &mut Recording<'_>, launch: impl Fn(&Recording<'_>)) {
-        let parity = r.push.parity;
-        r.push.parity = 1 - parity;
+    fn for_lights(&self, part: &mut Part<'_>, launch: impl Fn(&Part<'_>)) {
+        let parity = part.push.parity;
+        part.push.parity = 1 - parity;
         for group in self.groups() {
-            r.push.group = group;
-            launch(r);
+            part.push.group = group;
+            launch(part);
         }
-        r.push.parity = parity;
+        part.push.parity = parity;
     }
 
     /// Copies the heads to the host.
     pub(super) fn copy_heads(&self, commands: &Commands<'_>, paths: &Paths, to: &HeadsReadback) {
-        commands.copy((&paths.heads, 0), (&to.0, 0), size_of::<QueueHeads>() as u64);
+        let size = size_of::<QueueHeads>() as u64;
+        for (i, heads) in (0..).zip(&paths.heads) {
+            commands.copy((heads, 0), (&to.0, i * size), size);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves_are_the_whole() {
+        let slice = |first_pixel, size| Slice { first_pixel, size, samples: 3..5 };
+        for (size, lefts) in [([1280, 720], 640), ([9, 5], 8), ([24, 1], 16), ([100, 30], 56)] {
+            let whole = slice([7, 3], size);
+            let parts = halves(&whole, 1 << 30);
+            assert_eq!(
+                parts,
+                [slice([7, 3], [lefts, size[1]]), slice([7 + lefts, 3], [size[0] - lefts, size[1]])]
+            );
+            assert_eq!(parts.iter().map(Slice::paths).sum::<u64>(), whole.paths());
+            assert_eq!(halves(&whole, parts[0].paths()).len(), 2);
+            assert_eq!(halves(&whole, parts[0].paths() - 1), [whole]);
+        }
+        assert_eq!(halves(&slice([0, 0], [8, 50]), 1 << 30).len(), 1, "a single column of blocks");
     }
 }

@@ -28,6 +28,11 @@ impl Slice {
     pub(super) fn count(&self) -> u64 {
         u64::from(self.size[0]) * u64::from(self.size[1]) * self.samples.len() as u64
     }
+
+    /// Paths that these take, with those of blocks that reach outside.
+    pub(super) fn paths(&self) -> u64 {
+        paths_per_sample(self.size) * self.samples.len() as u64
+    }
 }
 
 /// How many camera samples fit into a piece, as measured.
@@ -124,7 +129,7 @@ mod tests {
             let mut slices = Slices::new(size, samples.clone(), capacity);
             let mut rooms = rooms.into_iter().cycle();
             while let Some(s) = slices.next(&Pace { room: rooms.next().unwrap() }) {
-                assert!(s.count() > 0 && paths_per_sample(s.size) * s.samples.len() as u64 <= capacity);
+                assert!(s.count() > 0 && s.paths() <= capacity);
                 for index in s.samples.clone() {
                     for y in s.first_pixel[1]..s.first_pixel[1] + s.size[1] {
                         for x in s.first_pixel[0]..s.first_pixel[0] + s.size[0] {

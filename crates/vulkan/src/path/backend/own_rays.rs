@@ -1,7 +1,7 @@
 //! The path tracer's own rays, collected step by step, and how long the device takes to trace them with nothing else to do: what share of a
 //! frame that is, says how near the path tracer is to the device's ceiling. The collecting shader: `glsl/replay/collect.comp`.
 
-use super::{HeadsReadback, Shot, VulkanBackend, Work};
+use super::{Extent, HeadsReadback, Shot, VulkanBackend, Work};
 use crate::compute::ComputePipeline;
 use crate::path::slices::Slice;
 use crate::{Buffer, Commands, Purpose, Replay, Timer, VulkanError};
@@ -12,6 +12,8 @@ use lumbre_shaders::view::{Push, QueueHeads, queue};
 
 /// Invocations of a work group that collects.
 const GROUP: u32 = 64;
+
+const ONE_STEP: Extent = Extent { begins: false, steps: 1, ends: false };
 
 /// Rays of one launch.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,14 +111,17 @@ impl VulkanBackend {
             return Err(VulkanError::TooLarge { what: "paths".to_owned(), needed, limit });
         }
         let slice = Slice { first_pixel: [0, 0], size, samples: 0..1 };
+        // Not in halves: the rays of a step are in one list.
+        let push = shot.of(std::slice::from_ref(&slice))[0];
         let collector = Collector::new(self, &shot, needed as u32)?;
         self.gpu.run("beginning paths", |commands| {
-            shot.passes.record(commands, paths, &collector.timer, (&shot.of(&slice), true, 0, false));
+            let extent = Extent { begins: true, steps: 0, ends: false };
+            shot.passes.record(commands, paths, &collector.timer, (&[push], extent));
             Ok(())
         })?;
         let mut own = OwnRays::default();
         for step in 0.. {
-            let push = Push { parity: step % 2, ..shot.of(&slice) };
+            let push = Push { parity: step % 2, ..push };
             let heads = self.collect_step(&work, &shot, &collector, &push)?;
             own.add(step, &collector, &heads);
             if heads.at[(queue::PATHS + 1 - push.parity) as usize].count == 0 {
@@ -138,14 +143,14 @@ impl VulkanBackend {
         self.gpu.run("collecting rays", |commands| {
             collector.collect(commands, push, collect::PATHS);
             commands.barrier();
-            shot.passes.record(commands, paths, &collector.timer, (push, false, 1, false));
+            shot.passes.record(commands, paths, &collector.timer, (std::slice::from_ref(push), ONE_STEP));
             [collect::FOUND, 0, 1].into_iter().for_each(|what| collector.collect(commands, push, what));
             shot.passes.copy_heads(commands, paths, &collector.heads);
             commands.barrier();
             collector.lists.iter().for_each(|list| list.copy(commands));
             Ok(())
         })?;
-        Ok(collector.heads.read())
+        Ok(collector.heads.read()[0])
     }
 
     /// Replays rays through this scene; surfaces that are there only in part are asked with the key of each ray.
@@ -225,7 +230,7 @@ impl Collector {
             pipeline,
             lists: [list()?, list()?, list()?],
             heads: HeadsReadback::new(&backend.gpu)?,
-            timer: Timer::new(&backend.gpu, shot.passes.stamps(false, 1, false).len().max(1) + 1)?,
+            timer: Timer::new(&backend.gpu, shot.passes.stamps(ONE_STEP))?,
             most,
         })
     }
