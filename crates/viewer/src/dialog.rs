@@ -121,7 +121,7 @@ impl Dialog {
     fn where_it_is(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
             let up = self.folder.path.parent().map(Path::to_path_buf);
-            let button = ui.add_enabled(up.is_some(), egui::Button::new("⬆ Up"));
+            let button = ui.add_enabled(up.is_some(), egui::Button::new("Up"));
             if let (true, Some(up)) = (button.on_hover_text("The folder above").clicked(), up) {
                 self.enter(&up, ui.ctx());
             }
@@ -146,9 +146,9 @@ impl Dialog {
             }
             Some(Ok(Listing { entries, left_out })) => {
                 for entry in &entries {
-                    let sign = if entry.is_folder { "🗀" } else { "🗋" };
+                    let sign = if entry.is_folder { "/" } else { "" };
                     let selected = !entry.is_folder && entry.name == self.name;
-                    let row = ui.selectable_label(selected, format!("{sign} {}", entry.name));
+                    let row = ui.selectable_label(selected, format!("{}{sign}", entry.name));
                     let chosen = row.double_clicked();
                     match (entry.is_folder, row.clicked()) {
                         (true, true) => entered = Some(self.folder.path.join(&entry.name)),

@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn an_overview_is_the_librarys() {
-        let mut scene = lumbre::Scene::default();
+        let mut scene = lumbre::scene::Scene::default();
         let positions = vec![BOX.min, BOX.max, Vec3::new(BOX.min.x, BOX.max.y, BOX.min.z)];
         let primitive = lumbre::scene::Primitive {
             positions,
@@ -127,7 +127,7 @@ mod tests {
             ..lumbre::scene::Primitive::default()
         };
         let mesh = scene.add_mesh(
-            lumbre::scene::Mesh { primitives: vec![primitive], ..lumbre::scene::Mesh::default() }.into(),
+            lumbre::scene::Mesh { primitives: vec![primitive], ..lumbre::scene::Mesh::default() },
         );
         scene.add_root(lumbre::scene::Node { mesh: Some(mesh), ..lumbre::scene::Node::default() });
         let compiled = lumbre::compile(&scene).unwrap().scene;

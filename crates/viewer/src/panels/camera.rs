@@ -22,8 +22,8 @@ pub(super) fn show(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
         for (text, action) in [
             ("Frame all", Action::FrameAll),
             ("Frame picked", Action::FramePicked),
-            ("◀ Back", Action::ViewBack),
-            ("Forward ▶", Action::ViewForward),
+            ("Back", Action::ViewBack),
+            ("Forward", Action::ViewForward),
         ] {
             if ui.button(text).on_hover_text(keys_of(action)).clicked() {
                 out.push(Command::Do(action));

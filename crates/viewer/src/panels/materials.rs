@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
     let Some(id) = picked else { return };
     let item = Item::Material(id);
     let changed = document.edits.changes(base, item).is_ok_and(|c| c.is_some());
-    if ui.add_enabled(changed, eframe::egui::Button::new("↺ As in the file")).clicked() {
+    if ui.add_enabled(changed, eframe::egui::Button::new("As in the file")).clicked() {
         out.push(Command::Reset(item));
     }
     table(ui, state, item, out);

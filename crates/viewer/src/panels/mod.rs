@@ -41,7 +41,8 @@ const PANELS: [(&str, bool, Panel); 8] = [
 
 /// The side bar.
 pub fn side_bar(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    // In both directions: a row that is too long must not widen the bar, which would begin the picture anew.
+    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         ui.add_space(2.0);
         for (name, open, show) in PANELS {
             let heading = RichText::new(name).strong();

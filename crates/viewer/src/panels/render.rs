@@ -46,11 +46,11 @@ fn keep(ui: &mut Ui, out: &mut Vec<Command>) {
 
 fn buttons(ui: &mut Ui, running: &Running, out: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        let text = if running.paused { "▶ Go on" } else { "⏸ Pause" };
+        let text = if running.paused { "Go on" } else { "Pause" };
         if ui.button(text).on_hover_text(keys_of(Action::Pause)).clicked() {
             out.push(Command::Do(Action::Pause));
         }
-        if ui.button("⟲ Begin anew").on_hover_text(keys_of(Action::Restart)).clicked() {
+        if ui.button("Begin anew").on_hover_text(keys_of(Action::Restart)).clicked() {
             out.push(Command::Do(Action::Restart));
         }
         if ui.selectable_label(running.preview, "Preview").on_hover_text(keys_of(Action::Preview)).clicked() {

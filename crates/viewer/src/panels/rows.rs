@@ -81,7 +81,7 @@ fn one(ui: &mut Ui, row: &Row) -> Option<Done> {
             Outcome::Changed => row.kind.check(&value).is_ok().then_some(Done::Set(row.name, value)),
         };
         if row.changed {
-            let back = ui.add(Button::new("↺").small().frame(false)).on_hover_text("As in the file");
+            let back = ui.add(Button::new("×").small().frame(false)).on_hover_text("As in the file");
             name(&back, &format!("Reset {}", row.label));
             if back.clicked() {
                 done = Some(Done::Unset(row.name));

@@ -95,9 +95,9 @@ fn line(
         let sign = if node.children.is_empty() {
             "·"
         } else if open {
-            "⏷"
+            "−"
         } else {
-            "⏵"
+            "+"
         };
         if ui.add(eframe::egui::Button::new(sign).frame(false).min_size([14.0, 0.0].into())).clicked() {
             if open {

@@ -3,7 +3,6 @@
 use crate::camera::shown_node;
 use crate::kit::Window;
 use eframe::egui::{Key, Modifiers, PointerButton};
-use egui_kittest::kittest::Queryable;
 use lumbre::edits::{Item, Value};
 use lumbre::scene::MaterialId;
 use std::sync::Arc;
@@ -37,7 +36,7 @@ fn a_drag_of_a_slider_is_one_step() {
     window.state_mut().selection.material = Some(MaterialId(0));
     window.unfold("Material");
     let before = roughness(&window);
-    let slider = window.ui.get_all_by_label("Roughness").find(|n| n.value().is_some()).unwrap().rect();
+    let slider = window.into_view("Roughness");
     let (from, to) = (slider.left_center() + [20.0, 0.0].into(), slider.left_center() + [70.0, 0.0].into());
     let mut passed = 0;
     let told = window.fake.count();

@@ -227,13 +227,22 @@ impl Window {
     pub(crate) fn unfold(&mut self, name: &str) {
         let header = self.ui.get_all_by_label(name).last().expect("a panel of this name");
         header.scroll_to_me();
-        self.steps(2);
+        self.steps(40);
         self.ui.get_all_by_label(name).last().expect("a panel of this name").click();
         self.steps(30);
     }
 
+    /// Scrolls to the field of a row.
+    pub(crate) fn into_view(&mut self, name: &str) -> Rect {
+        let field = |w: &Self| w.ui.get_all_by_label(name).find(|n| n.value().is_some()).map(|n| n.rect());
+        self.ui.get_all_by_label(name).find(|n| n.value().is_some()).expect("a field of this name").scroll_to_me();
+        self.steps(40);
+        field(self).expect("a field of this name")
+    }
+
     /// Sets a number by the name of its row.
     pub(crate) fn set_number(&mut self, name: &str, value: f64) {
+        self.into_view(name);
         let field =
             self.ui.get_all_by_label(name).find(|n| n.value().is_some()).expect("a field of this name");
         field.set_value_accesskit(value);
