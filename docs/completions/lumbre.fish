@@ -37,36 +37,36 @@ complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "man" -d 'Print the ma
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -s o -l output -d 'File to write: .png, .jpg (8 bits a band, for display), .hdr (linear radiance) or .exr (linear, 32-bit floats, with layers); - is standard output, a PNG, or of another format as exr:-. May be given several times. [default: the scene\'s name with .png, beside it or in this folder; never a file that is there already]' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l size -d 'Columns and rows of the picture, up to 32768 each. [default: 720 rows in the shape that the camera was framed for, 1280x720 where the scene does not say]' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l background -d 'What the camera sees behind the scene. What is left out still gives light' -r -f -a "scene\t'Its sky or environment'
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l background -d 'What the camera sees behind the scene. What is left out still gives light. [default: scene]' -r -f -a "scene\t'Its sky or environment'
 transparent\t'Nothing: PNG and EXR get alpha, JPEG and HDR black'"
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l first-sample -d 'Number of the first sample of each pixel. A render can be split: each part takes --spp samples from here, its .exr carries the exact sums, and `lumbre merge` adds them to the bits of one run' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l exposure -d 'Brightness: `auto` makes the log-average luminance middle grey (0.18), `thesis` is 0.5 over the average clamped to 0.1..1, a number is stops: each one more doubles' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l tone -d 'Tone curve: `srgb` and `linear` (gamma 2.2) clip what is brighter than white; `reinhard`, `aces` and `agx` roll it off, and so does `neutral`, which keeps the colours of materials' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l vignette -d 'Darkens towards the corners, which keep 1 - X of their light; 0 to 1' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l aberration -d 'Chromatic aberration: enlarges red about the centre by X per cent and makes blue smaller by as much; -50 to 50' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l exposure -d 'Brightness: `auto` makes the log-average luminance middle grey (0.18), `thesis` is 0.5 over the average clamped to 0.1..1, a number is stops: each one more doubles. [default: auto]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l tone -d 'Tone curve: `srgb` and `linear` (gamma 2.2) clip what is brighter than white; `reinhard`, `aces` and `agx` roll it off, and so does `neutral`, which keeps the colours of materials. [default: srgb]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l vignette -d 'Darkens towards the corners, which keep 1 - X of their light; 0 to 1. [default: 0]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l aberration -d 'Chromatic aberration: enlarges red about the centre by X per cent and makes blue smaller by as much; -50 to 50. [default: 0]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l quality -d 'Quality of a JPEG' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l spp -d 'Samples per pixel. [default: 4096 if neither --time nor --target-error is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l time -d 'Time for the whole command but the writing of the picture, such as 30s, 1.5min, 1h30min. [default: 10min if neither --spp nor --target-error is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l target-error -d 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. 64 samples are taken at least. [default: 0.002 if neither --spp nor --time is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l save-every -d 'Write the outputs again and again with what there is so far, this far apart' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-depth -d 'Most scattering events on a path' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l roulette -d 'First scattering event after which Russian roulette may end a path' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l sampler -d 'Random stream' -r -f -a "sobol\t'Owen-scrambled Sobol points: converges faster'
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-depth -d 'Most scattering events on a path. [default: 16]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l roulette -d 'First scattering event after which Russian roulette may end a path. [default: 4]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l sampler -d 'Random stream. [default: sobol]' -r -f -a "sobol\t'Owen-scrambled Sobol points: converges faster'
 independent\t'Independent random numbers'"
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l seed -d 'Seed of the random stream: another one gives other noise' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l filter -d 'Pixel filter' -r -f -a "box\t'Exactly one pixel'
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l seed -d 'Seed of the random stream: another one gives other noise. [default: 0]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l filter -d 'Pixel filter. [default: blackman-harris]' -r -f -a "box\t'Exactly one pixel'
 tent\t'Radius of one pixel'
 gaussian\t'Standard deviation of half a pixel, radius 1.5'
 blackman-harris\t'Radius 1.5 pixels'"
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l light-sampling -d 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never' -r -f -a "on\t''
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l light-sampling -d 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never. [default: on]' -r -f -a "on\t''
 off\t''"
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l transmissive-shadows -d 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint' -r -f -a "auto\t'Solid glass lets the light of point lights and the sun through straight, with its tint'
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l transmissive-shadows -d 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint. [default: auto]' -r -f -a "auto\t'Solid glass lets the light of point lights and the sun through straight, with its tint'
 physical\t'Solid glass blocks: caustics come from scattered rays alone'
 straight\t'Solid glass lets all light through straight'"
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l back-faces -d 'Whether camera rays see the back of single-sided opaque surfaces' -r -f -a "cull\t'Nothing, as glTF asks'
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l back-faces -d 'Whether camera rays see the back of single-sided opaque surfaces. [default: cull]' -r -f -a "cull\t'Nothing, as glTF asks'
 shade\t'The surface'"
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l clamp -d 'Most that light which has scattered twice or more may add to a sample at a time, nits (biased: it takes bright dots away, and light with them). [default: no limit]' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l hemisphere -d 'How diffuse directions are drawn (for comparisons)' -r -f -a "cosine\t'In proportion to the cosine'
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l hemisphere -d 'How diffuse directions are drawn (for comparisons). [default: cosine]' -r -f -a "cosine\t'In proportion to the cosine'
 uniform\t'Uniformly: noisier'"
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l camera -d 'Which of the scene\'s cameras: its name, that of its node, or its number from 0. [default: the first; the whole scene in view if there is none]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l look-from -d 'Puts the eye here, metres' -r
@@ -91,6 +91,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l pixel -d 'Inste
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l sample -d 'Which sample of that pixel, from 0' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l scene -d 'Which of the file\'s scenes: its name, or its number from 0. [default: the one that the file names, else the first]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l variant -d 'Which of the file\'s sets of materials, by name. [default: the materials that stand without one]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l edits -d 'What was changed of the scene, as `lumbre view` writes it (docs/edits.md says what can stand there): camera, lights, materials, places of things, settings, look. Flags that are given stand above it' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l asset-dir -d 'Folder from which textures and other files that the scene names may be read too. May be given several times' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-file-bytes -d 'Bytes of one file, such as 4GiB. [default: 8GiB]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-json-bytes -d 'Bytes of a scene\'s JSON. [default: 256MiB]' -r
@@ -112,6 +113,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -s h -l help -d 'P
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l size -d 'Size of the picture whose memory is predicted' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l scene -d 'Which of the file\'s scenes: its name, or its number from 0. [default: the one that the file names, else the first]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l variant -d 'Which of the file\'s sets of materials, by name. [default: the materials that stand without one]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l edits -d 'What was changed of the scene, as `lumbre view` writes it (docs/edits.md says what can stand there): camera, lights, materials, places of things, settings, look. Flags that are given stand above it' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l asset-dir -d 'Folder from which textures and other files that the scene names may be read too. May be given several times' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l max-file-bytes -d 'Bytes of one file, such as 4GiB. [default: 8GiB]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l max-json-bytes -d 'Bytes of a scene\'s JSON. [default: 256MiB]' -r
@@ -134,10 +136,10 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand compare" -l layer -d 'Laye
 complete -c lumbre -n "__fish_lumbre_using_subcommand compare" -l exposure -d 'Brightness at which HDR pictures are shown, as in `lumbre render`' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand compare" -l json -d 'Prints one JSON object; an infinite PSNR is null'
 complete -c lumbre -n "__fish_lumbre_using_subcommand compare" -s h -l help -d 'Print help'
-complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l exposure -d 'Brightness: `auto` makes the log-average luminance middle grey (0.18), `thesis` is 0.5 over the average clamped to 0.1..1, a number is stops: each one more doubles' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l tone -d 'Tone curve: `srgb` and `linear` (gamma 2.2) clip what is brighter than white; `reinhard`, `aces` and `agx` roll it off, and so does `neutral`, which keeps the colours of materials' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l vignette -d 'Darkens towards the corners, which keep 1 - X of their light; 0 to 1' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l aberration -d 'Chromatic aberration: enlarges red about the centre by X per cent and makes blue smaller by as much; -50 to 50' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l exposure -d 'Brightness: `auto` makes the log-average luminance middle grey (0.18), `thesis` is 0.5 over the average clamped to 0.1..1, a number is stops: each one more doubles. [default: auto]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l tone -d 'Tone curve: `srgb` and `linear` (gamma 2.2) clip what is brighter than white; `reinhard`, `aces` and `agx` roll it off, and so does `neutral`, which keeps the colours of materials. [default: srgb]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l vignette -d 'Darkens towards the corners, which keep 1 - X of their light; 0 to 1. [default: 0]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l aberration -d 'Chromatic aberration: enlarges red about the centre by X per cent and makes blue smaller by as much; -50 to 50. [default: 0]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l quality -d 'Quality of a JPEG' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l max-file-bytes -d 'Bytes of one file, such as 4GiB. [default: 8GiB]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand merge" -l max-json-bytes -d 'Bytes of a scene\'s JSON. [default: 256MiB]' -r
@@ -168,24 +170,24 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l warm-up -d 'Fram
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l budget -d 'Most time for the frames of one figure; one frame is always taken' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l spp -d 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l time -d 'Time for each device in `equal-time`' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-depth -d 'Most scattering events on a path' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l roulette -d 'First scattering event after which Russian roulette may end a path' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sampler -d 'Random stream' -r -f -a "sobol\t'Owen-scrambled Sobol points: converges faster'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-depth -d 'Most scattering events on a path. [default: 16]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l roulette -d 'First scattering event after which Russian roulette may end a path. [default: 4]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sampler -d 'Random stream. [default: sobol]' -r -f -a "sobol\t'Owen-scrambled Sobol points: converges faster'
 independent\t'Independent random numbers'"
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l seed -d 'Seed of the random stream: another one gives other noise' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l filter -d 'Pixel filter' -r -f -a "box\t'Exactly one pixel'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l seed -d 'Seed of the random stream: another one gives other noise. [default: 0]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l filter -d 'Pixel filter. [default: blackman-harris]' -r -f -a "box\t'Exactly one pixel'
 tent\t'Radius of one pixel'
 gaussian\t'Standard deviation of half a pixel, radius 1.5'
 blackman-harris\t'Radius 1.5 pixels'"
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l light-sampling -d 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never' -r -f -a "on\t''
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l light-sampling -d 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never. [default: on]' -r -f -a "on\t''
 off\t''"
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l transmissive-shadows -d 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint' -r -f -a "auto\t'Solid glass lets the light of point lights and the sun through straight, with its tint'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l transmissive-shadows -d 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint. [default: auto]' -r -f -a "auto\t'Solid glass lets the light of point lights and the sun through straight, with its tint'
 physical\t'Solid glass blocks: caustics come from scattered rays alone'
 straight\t'Solid glass lets all light through straight'"
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l back-faces -d 'Whether camera rays see the back of single-sided opaque surfaces' -r -f -a "cull\t'Nothing, as glTF asks'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l back-faces -d 'Whether camera rays see the back of single-sided opaque surfaces. [default: cull]' -r -f -a "cull\t'Nothing, as glTF asks'
 shade\t'The surface'"
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l clamp -d 'Most that light which has scattered twice or more may add to a sample at a time, nits (biased: it takes bright dots away, and light with them). [default: no limit]' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l hemisphere -d 'How diffuse directions are drawn (for comparisons)' -r -f -a "cosine\t'In proportion to the cosine'
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l hemisphere -d 'How diffuse directions are drawn (for comparisons). [default: cosine]' -r -f -a "cosine\t'In proportion to the cosine'
 uniform\t'Uniformly: noisier'"
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sky -d 'What fills the sky: one radiance (R,G,B linear in nits, or #rrggbb sRGB), a plain `gradient` with a mean near 1, or nothing. [default: what the scene has; the gradient if nothing in it gives light]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sun -d 'A sun: elevation above the horizon and azimuth from -z towards +x, degrees. STRENGTH is the illuminance on a surface that faces it, in lux on the scale of the scene\'s lights; 15 by default, which makes a clear day with the gradient sky (a real clear noon is 100000 lux under a sky of some 5000 nits). Its light is slightly warm' -r
@@ -196,6 +198,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l device -d 'Where
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l threads -d 'Threads. [default: one for each processor]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l scene -d 'Which of the file\'s scenes: its name, or its number from 0. [default: the one that the file names, else the first]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l variant -d 'Which of the file\'s sets of materials, by name. [default: the materials that stand without one]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l edits -d 'What was changed of the scene, as `lumbre view` writes it (docs/edits.md says what can stand there): camera, lights, materials, places of things, settings, look. Flags that are given stand above it' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l asset-dir -d 'Folder from which textures and other files that the scene names may be read too. May be given several times' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-file-bytes -d 'Bytes of one file, such as 4GiB. [default: 8GiB]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-json-bytes -d 'Bytes of a scene\'s JSON. [default: 256MiB]' -r

@@ -1,6 +1,7 @@
 //! A scene with the light that the flags ask for.
 
 use crate::console;
+use crate::edited;
 use crate::exit::Failure;
 use crate::flags::light::LightArgs;
 use crate::flags::loading::LoadingArgs;
@@ -16,36 +17,37 @@ pub(crate) struct Lit {
     pub(crate) sky_added: bool,
 }
 
-/// Loads a scene and lights it.
+/// Loads a scene, edits it and lights it.
 pub(crate) fn load(path: &Path, loading: &LoadingArgs, light: &LightArgs) -> Result<Lit, Failure> {
     let load = loading.options();
-    let mut loaded = lumbre::load_scene(path, &load)?;
+    let loaded = lumbre::load_scene(path, &load)?;
     loaded.warnings.iter().for_each(console::warning);
-    set_environment(light, &load.limits, &mut loaded.scene.environment)?;
-    let sky_added = mind_the_light(light, &mut loaded.scene);
-    Ok(Lit { scene: loaded.scene, sky_added })
+    let mut scene = loaded.scene;
+    let asked = light.sky.is_some() || light.env.is_some() || light.sun.is_some();
+    // Before the edits, since that is the scene that they were made on.
+    let sky_added = !asked && add_sky(&mut scene);
+    let mut scene = edited::apply(loading, path, scene, Some(light))?;
+    set_environment(light, &load.limits, &mut scene.environment)?;
+    let kinds = lumbre::light_kinds(&scene);
+    if !kinds.any() {
+        console::warning(match kinds.unlit {
+            true => "nothing gives light: only unlit surfaces will be seen",
+            false => "nothing gives light: the picture will be black",
+        });
+    } else if kinds.only_emissive() && !asked && loading.edits.is_none() {
+        console::note("light: emissive surfaces only; --sky gradient adds a sky");
+    }
+    Ok(Lit { scene, sky_added })
 }
 
-/// Gives a scene without any light a gradient sky, unless the flags say what light there is; says what may surprise. Returns
-/// whether the sky was added.
-fn mind_the_light(args: &LightArgs, scene: &mut Scene) -> bool {
-    let kinds = lumbre::light_kinds(scene);
-    let asked = args.sky.is_some() || args.env.is_some() || args.sun.is_some();
-    if kinds.any() {
-        if kinds.only_emissive() && !asked {
-            console::note("light: emissive surfaces only; --sky gradient adds a sky");
-        }
-        return false;
-    }
-    if !asked {
+/// Gives a scene without any light a gradient sky, and says so. Returns whether it was added.
+fn add_sky(scene: &mut Scene) -> bool {
+    let dark = !lumbre::light_kinds(scene).any();
+    if dark {
         scene.environment.background = Background::Gradient;
         console::note("light: nothing in the scene gives any; gradient sky added (--sky off: none)");
-    } else if kinds.unlit {
-        console::warning("nothing gives light: only unlit surfaces will be seen");
-    } else {
-        console::warning("nothing gives light: the picture will be black");
     }
-    !asked
+    dark
 }
 
 /// Puts the light of the flags in the place of the scene's own.

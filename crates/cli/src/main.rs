@@ -6,6 +6,7 @@ mod compare;
 mod console;
 mod device;
 mod devices;
+mod edited;
 mod exit;
 mod flags;
 mod generate;
@@ -46,9 +47,9 @@ fn run(command: Command, started: Instant) -> Result<Code, Failure> {
         Command::Render(mut args) => render::run(&mut args),
         #[cfg(feature = "viewer")]
         Command::View(args) => view::run(&args),
-        Command::Info(args) => info::run(&args),
+        Command::Info(mut args) => info::run(&mut args),
         Command::Devices(args) => devices::run(&args),
-        Command::Bench(args) => bench::run(&args, started),
+        Command::Bench(mut args) => bench::run(&mut args, started),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man(args) => generate::man(&args),

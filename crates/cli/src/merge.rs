@@ -6,14 +6,15 @@ use crate::flags::output::{BACKGROUND, TRANSPARENT};
 use crate::outputs::{Developed, Outputs, PartOf};
 use crate::{console, memory};
 use lumbre::core::film::state::WORDS;
+use lumbre::edits::LookEdits;
 use lumbre::merge::{Merge, MergeError, Part, Samples, read_part};
 use std::path::Path;
 
 /// Runs the command.
 pub(crate) fn run(args: &MergeArgs) -> Result<Code, Failure> {
     let inputs: Vec<&Path> = args.parts.iter().map(|p| &**p).collect();
-    let look = &args.look;
-    let outputs = Outputs::check(std::slice::from_ref(&args.output), &inputs, look.look(), look.quality)?;
+    let look = args.look.look(LookEdits::default());
+    let outputs = Outputs::check(std::slice::from_ref(&args.output), &inputs, look, args.look.quality)?;
     if args.keep_sums && !outputs.has_exr() {
         return Err(Failure::usage("--keep-sums: exact sums go into an .exr, and the output is none"));
     }

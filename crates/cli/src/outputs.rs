@@ -6,6 +6,7 @@ use crate::memory::EXR_BYTES_PER_PIXEL;
 use lumbre::core::Film;
 use lumbre::core::color::Exposure;
 use lumbre::core::film::state::WORDS;
+use lumbre::edits::LookEdits;
 use lumbre::fingerprint::Fingerprint;
 use lumbre::io::{self, IoError, Picture, STANDARD_OUTPUT};
 use lumbre::output::{self, DisplayImage, Look};
@@ -104,7 +105,7 @@ pub(crate) struct Developed<'a> {
 #[derive(Debug, Default)]
 pub(crate) struct Outputs {
     targets: Vec<Target>,
-    look: Look,
+    look: LookEdits,
     /// Of JPEG.
     quality: u8,
 }
@@ -114,7 +115,7 @@ impl Outputs {
     pub(crate) fn check(
         paths: &[PathBuf],
         inputs: &[&Path],
-        look: Look,
+        look: LookEdits,
         quality: u8,
     ) -> Result<Self, Failure> {
         let targets: Vec<Target> = paths.iter().map(|p| Target::parse(p)).collect::<Result<_, _>>()?;
@@ -144,7 +145,7 @@ impl Outputs {
 
     /// The same for pictures with alpha, where the format has it, or without.
     pub(crate) fn with_alpha(self, transparent: bool) -> Self {
-        Outputs { look: Look { transparent, ..self.look }, ..self }
+        Outputs { look: LookEdits { look: Look { transparent, ..self.look.look }, ..self.look }, ..self }
     }
 
     /// Whether one of them goes to standard output, where nothing else must then appear.
@@ -179,7 +180,7 @@ impl Outputs {
 
     /// Writes all of them, and says so. One that fails does not keep the others from being written.
     pub(crate) fn write(&self, developed: &Developed<'_>) -> Result<(), Failure> {
-        let by_itself = !matches!(self.look.exposure, Exposure::Ev(_));
+        let by_itself = !matches!(self.look.look.exposure, Exposure::Ev(_));
         if by_itself && self.targets.iter().any(|t| t.format.is_for_display()) {
             let ev = self.look.exposure_factor(developed.film).log2();
             console::note(format_args!("exposure: {ev:+.2} EV"));
@@ -199,11 +200,14 @@ impl Outputs {
     ) -> Result<(), Failure> {
         let targets: Vec<&Target> = self.targets.iter().filter(|t| wanted(t)).collect();
         // One development for all formats that want the same.
-        let image = |alpha: bool| {
-            let look = Look { transparent: self.look.transparent && alpha, ..self.look };
-            let same = |t: &&Target| (t.format == Format::Png) == alpha && t.format.is_for_display();
-            targets.iter().copied().any(|t| same(&t)).then(|| output::develop(developed.film, &look))
-        };
+        let image =
+            |alpha: bool| {
+                let look = Look { transparent: self.look.look.transparent && alpha, ..self.look.look };
+                let same = |t: &&Target| (t.format == Format::Png) == alpha && t.format.is_for_display();
+                targets.iter().copied().any(|t| same(&t)).then(|| {
+                    output::develop_at(developed.film, &look, self.look.exposure_factor(developed.film))
+                })
+            };
         let (png, jpeg) = (image(true), image(false));
         let mut failures = Vec::new();
         for target in targets {
@@ -246,7 +250,7 @@ impl Outputs {
 
     fn exr(&self, developed: &Developed<'_>) -> io::ExrImage {
         let Developed { film, metadata, part } = *developed;
-        let mut image = output::to_exr(film, self.look.transparent, metadata.to_vec());
+        let mut image = output::to_exr(film, self.look.look.transparent, metadata.to_vec());
         if let Some(PartOf { fingerprint, first_sample }) = part
             && lumbre::merge::add_sums(&mut image, film, fingerprint, first_sample).is_none()
         {

@@ -5,7 +5,7 @@
 //! not send each ray through a hundred trees with a transform each (what Embree's users do by putting all shapes into one scene).
 //! Meshes used more than once keep one structure each, shared by their instances.
 //!
-//! Where a scene is to be edited ([`CpuOptions::merge`]), each mesh keeps structures of its own ([`apart`]): moving it, hiding it or
+//! Where a scene is to be edited ([`CpuOptions::merge`]), each mesh keeps structures of its own (`apart.rs`): moving it, hiding it or
 //! changing its materials leaves them as they are.
 
 mod apart;

@@ -77,7 +77,7 @@ pub use light::{LightKinds, light_kinds};
 pub use look::Look;
 #[cfg(feature = "files")]
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
-pub use lumbre_scene::{CompileError, Compiled, compile};
+pub use lumbre_scene::{CompileError, Compiled, SceneChanges, compile, recompile};
 pub use render::{Watch, render};
 pub use targets::{Ended, Outcome, RenderFailed, SoFar, Targets};
 

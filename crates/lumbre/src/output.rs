@@ -13,9 +13,14 @@ use std::path::Path;
 /// by alpha (PNG's way); without, what is there stands before black. The lens is that of the whole picture, also where the
 /// film is a part of it; at the edge of a part, aberration takes the part's last pixels for what lies beyond.
 pub fn develop(film: &Film, look: &Look) -> DisplayImage {
+    develop_at(film, look, look.exposure_factor(film))
+}
+
+/// The same with this factor in the place of the look's exposure.
+pub fn develop_at(film: &Film, look: &Look, factor: f32) -> DisplayImage {
     let negative = Negative::new(film, look.transparent);
     let channels = if look.transparent { 4 } else { 3 };
-    let bytes = negative.develop(look, negative.exposure_factor(look), channels);
+    let bytes = negative.develop(look, factor, channels);
     DisplayImage { width: film.width(), height: film.height(), has_alpha: look.transparent, bytes }
 }
 

@@ -56,7 +56,7 @@ pub(super) fn table(args: &BenchArgs, started: Instant) -> Result<Table, Failure
     steps.done();
     let place = Place::of(&path, lit, args)?;
     let eye = place.eyes().next().expect("a camera, or the whole in view");
-    let view = eye.view(size, args.sampling.settings())?;
+    let view = eye.view(size, args.settings())?;
     steps.done();
     let backend = device::prepare(open, place.compiled.clone())?;
     steps.done();

@@ -15,9 +15,11 @@ mod size;
 mod still;
 mod sweep;
 mod table;
+mod view;
 
 use crate::exit::{Code, Failure};
 use crate::flags::bench::{BenchArgs, Table as Which};
+use crate::flags::sampling;
 use crate::{console, device};
 use lumbre::core::Film;
 use lumbre::core::settings::View;
@@ -26,7 +28,9 @@ use place::Place;
 use std::time::Instant;
 
 /// Runs the command. `started`: when the process began.
-pub(crate) fn run(args: &BenchArgs, started: Instant) -> Result<Code, Failure> {
+pub(crate) fn run(args: &mut BenchArgs, started: Instant) -> Result<Code, Failure> {
+    args.loading.read_edits()?;
+    let args = &*args;
     // An unavailable device is said before a scene is opened; but opening it belongs to the first frame.
     if args.table != Which::FirstFrame {
         drop(device::open(&args.device)?);
@@ -42,6 +46,7 @@ pub(crate) fn run(args: &BenchArgs, started: Instant) -> Result<Code, Failure> {
         Which::EqualTime => equal_time::table(args),
         Which::Build => build::table(args),
         Which::FirstFrame => first_frame::table(args, started),
+        Which::View => view::table(args),
     })?;
     console::result(match (args.json, args.markdown) {
         (true, _) => table.json(),
@@ -53,15 +58,16 @@ pub(crate) fn run(args: &BenchArgs, started: Instant) -> Result<Code, Failure> {
 
 /// How the paths of a table are made, for those who read it.
 fn settings(args: &BenchArgs, device: &str) -> Vec<(&'static str, String)> {
-    let own = |name: &str| args.sampling.described().into_iter().find(|(n, _)| *n == name).map(|(_, v)| v);
-    let mut all = vec![("device", device.to_owned())];
+    let all = sampling::described(&args.settings());
+    let own = |name: &str| all.iter().find(|(n, _)| *n == name).map(|(_, v)| v.clone());
+    let mut lines = vec![("device", device.to_owned())];
     let roulette = own("roulette").unwrap_or_default();
     let roulette = if roulette == "off" { roulette } else { format!("from event {roulette}") };
-    all.push(("roulette", roulette));
+    lines.push(("roulette", roulette));
     for (name, key) in [("sampler", "sampler"), ("filter", "filter"), ("light sampling", "lightSampling")] {
-        all.extend(own(key).map(|value| (name, value)));
+        lines.extend(own(key).map(|value| (name, value)));
     }
-    all
+    lines
 }
 
 /// Brings a place to the device, and to no other if that fails: figures are of one device.

@@ -88,7 +88,12 @@ impl Place {
     }
 }
 
-impl Eye<'_> {
+impl<'a> Eye<'a> {
+    /// The scene that it looks at.
+    pub(super) fn scene(&self) -> &'a Scene {
+        self.place
+    }
+
     /// What it sees in a picture of this size.
     pub(super) fn view(&self, size: [u32; 2], settings: RenderSettings) -> Result<View, Failure> {
         let aspect = size[0] as f32 / size[1] as f32;
@@ -105,6 +110,7 @@ fn cameras(path: &Path, args: &BenchArgs, names: &[String]) -> Vec<(String, Came
         fov: args.fov.map(f32::to_radians),
         ..CameraOptions::default()
     };
+    let edited = args.loading.edited.camera_options();
     let with = |name: &str, choice| (name.to_owned(), CameraOptions { choice, ..given.clone() });
     if !args.camera.is_empty() {
         let choice =
@@ -114,6 +120,9 @@ fn cameras(path: &Path, args: &BenchArgs, names: &[String]) -> Vec<(String, Came
     let moved = args.look_from.is_some() || args.look_at.is_some();
     if moved {
         return vec![with("of the flags", CameraChoice::Default)];
+    }
+    if edited != CameraOptions::default() {
+        return vec![("of the edits".into(), CameraOptions { fov: given.fov.or(edited.fov), ..edited })];
     }
     if path.ends_with(SPONZA) {
         // It has no camera: along the nave, at the height of a man's eyes.

@@ -30,7 +30,7 @@ impl Sweep {
         let depths = args.depths.as_ref().map(|all| all.iter().map(|Depth(depth)| *depth).collect());
         Sweep {
             sizes: sizes.unwrap_or_else(|| vec![HD]),
-            depths: depths.unwrap_or_else(|| vec![args.sampling.max_depth.0]),
+            depths: depths.unwrap_or_else(|| vec![args.settings().max_depth]),
             samples: args.samples.clone().unwrap_or_else(|| vec![1]),
         }
     }
@@ -140,7 +140,7 @@ pub(super) struct Spot<'a> {
 impl Spot<'_> {
     /// The settings of the flags at this depth.
     pub(super) fn settings(&self) -> RenderSettings {
-        RenderSettings { max_depth: self.depth, ..self.args.sampling.settings() }
+        RenderSettings { max_depth: self.depth, ..self.args.settings() }
     }
 
     /// What the camera sees.

@@ -7,6 +7,7 @@ use super::sampling::SamplingArgs;
 use super::values::{Depth, Size, depth, duration, fov, size, vec3};
 use clap::{Args, ValueEnum};
 use lumbre::core::math::Vec3;
+use lumbre::core::settings::RenderSettings;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -29,6 +30,7 @@ Examples:
       this device beside the CPU, each for half a minute
   lumbre bench build --triangles 20000,1000000
   lumbre bench first-frame scene.glb
+  lumbre bench view scene.glb --sizes 1280x720 --device cpu
 
 Exit codes:
   0 done, 2 wrong usage, 65 bad data, 66 a file cannot be opened, 69 the GPU cannot be had or
@@ -57,6 +59,8 @@ pub(crate) enum Table {
     Build,
     /// Time from the start of the process to the first frame of a scene, step by step
     FirstFrame,
+    /// How soon a view answers, without a window: to moves of the camera, and to edits for --time
+    View,
 }
 
 /// Flags of `lumbre bench`.
@@ -124,7 +128,7 @@ pub(crate) struct BenchArgs {
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1 << 26))]
     pub(crate) triangles: Vec<u32>,
 
-    /// Time for each device in `equal-time`.
+    /// Time for each device in `equal-time`, and of the edits of `view`.
     #[arg(long, value_name = "TIME", value_parser = duration, default_value = "10s")]
     pub(crate) time: Duration,
 
@@ -145,4 +149,11 @@ pub(crate) struct BenchArgs {
     // Last, since its heading holds for all that follows.
     #[command(flatten)]
     pub(crate) loading: LoadingArgs,
+}
+
+impl BenchArgs {
+    /// What the integrator honours.
+    pub(crate) fn settings(&self) -> RenderSettings {
+        self.sampling.settings(self.loading.edited.settings(RenderSettings::default()))
+    }
 }

@@ -5,6 +5,7 @@ use crate::exit::Failure;
 use clap::Args;
 use lumbre::core::film::Crop;
 use lumbre::core::math::Vec3;
+use lumbre::edits::Edits;
 use lumbre::{Aperture, CameraChoice, CameraOptions, Focus};
 
 /// The camera.
@@ -35,7 +36,7 @@ pub(crate) struct CameraArgs {
 
     /// What is in focus: a distance in metres along the direction of view, or `auto`, what lies in the centre of the picture.
     /// [default: auto]
-    #[arg(long, value_name = "D|auto", value_parser = focus, allow_hyphen_values = true, requires = "aperture")]
+    #[arg(long, value_name = "D|auto", value_parser = focus, allow_hyphen_values = true)]
     pub(crate) focus: Option<Focus>,
 
     /// Renders only this part of the picture: column and row of its top left pixel, columns and rows. Its pixels are those of
@@ -59,22 +60,33 @@ impl CameraArgs {
         )))
     }
 
-    /// The same in the library's terms.
-    pub(crate) fn options(&self) -> Result<CameraOptions, Failure> {
-        if self.look_from.is_some() && self.look_from == self.look_at {
-            return Err(Failure::usage(
-                "--look-from and --look-at are the same point: there is no direction",
-            ));
+    /// The same in the library's terms: what was given, in the place of the edits' camera. Another camera, or a bookmark by its
+    /// name, takes the place of all of that.
+    pub(crate) fn options(&self, edits: &Edits) -> Result<CameraOptions, Failure> {
+        let base = match &self.camera {
+            None => edits.camera_options(),
+            Some(CameraChoice::Name(name)) if let Some(bookmark) = edits.bookmark(name) => {
+                bookmark.changes.camera_options()
+            }
+            Some(choice) => CameraOptions { choice: choice.clone(), ..CameraOptions::default() },
+        };
+        let options = CameraOptions {
+            look_from: self.look_from.or(base.look_from),
+            look_at: self.look_at.or(base.look_at),
+            fov: self.fov.map(f32::to_radians).or(base.fov),
+            aperture: self.aperture.or(base.aperture),
+            focus: self.focus.unwrap_or(base.focus),
+            ..base
+        };
+        if options.look_from.is_some() && options.look_from == options.look_at {
+            let from = if self.look_from.is_some() { "--look-from" } else { "the eye of the edits" };
+            let at = if self.look_at.is_some() { "--look-at" } else { "their target" };
+            return Err(Failure::usage(format!("{from} and {at} are the same point: there is no direction")));
         }
-        Ok(CameraOptions {
-            choice: self.camera.clone().unwrap_or_default(),
-            look_from: self.look_from,
-            look_at: self.look_at,
-            up: None,
-            fov: self.fov.map(f32::to_radians),
-            aperture: self.aperture,
-            focus: self.focus.unwrap_or_default(),
-        })
+        if self.focus.is_some() && options.aperture.is_none() {
+            return Err(Failure::usage("--focus means nothing without --aperture: everything is sharp"));
+        }
+        Ok(options)
     }
 
     /// Names and values of the flags that were given, for the metadata of a file.

@@ -1,8 +1,10 @@
 //! Flags on how a scene is read: shared by the commands that open one.
 
-use super::values::{bytes, count};
+use super::values::{bytes, count, file_name};
+use crate::exit::Failure;
 use clap::Args;
 use lumbre::LoadOptions;
+use lumbre::edits::Edits;
 use lumbre::io::{Bound, Limits, SceneChoice};
 use std::path::PathBuf;
 
@@ -18,6 +20,15 @@ pub(crate) struct LoadingArgs {
     #[arg(long, value_name = "NAME")]
     pub(crate) variant: Option<String>,
 
+    /// What was changed of the scene, as `lumbre view` writes it (docs/edits.md says what can stand there): camera, lights,
+    /// materials, places of things, settings, look. Flags that are given stand above it.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) edits: Option<PathBuf>,
+
+    /// What it holds.
+    #[arg(skip)]
+    pub(crate) edited: Edits,
+
     /// Folder from which textures and other files that the scene names may be read too. May be given several times.
     #[arg(long, value_name = "DIR")]
     pub(crate) asset_dir: Vec<PathBuf>,
@@ -28,6 +39,14 @@ pub(crate) struct LoadingArgs {
 }
 
 impl LoadingArgs {
+    /// Reads the edits, if a file of them is named.
+    pub(crate) fn read_edits(&mut self) -> Result<(), Failure> {
+        if let Some(path) = &self.edits {
+            self.edited = Edits::read(path)?;
+        }
+        Ok(())
+    }
+
     /// The same in the library's terms.
     pub(crate) fn options(&self) -> LoadOptions {
         let (scene, variant) = (self.which_scene.clone().unwrap_or_default(), self.variant.clone());
@@ -41,7 +60,8 @@ impl LoadingArgs {
             SceneChoice::Index(i) => Some(i.to_string()),
             SceneChoice::Name(name) => Some(name.clone()),
         });
-        let all = [("whichScene", scene), ("variant", self.variant.clone())];
+        let edits = self.edits.as_deref().map(file_name);
+        let all = [("whichScene", scene), ("variant", self.variant.clone()), ("edits", edits)];
         all.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
     }
 }

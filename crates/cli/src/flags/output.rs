@@ -3,7 +3,9 @@
 use super::values::{Size, aberration, exposure, size, vignette};
 use clap::{Args, ValueEnum};
 use lumbre::core::color::Exposure;
+use lumbre::core::settings::RenderSettings;
 use lumbre::core::tone::ToneCurve;
+use lumbre::edits::LookEdits;
 use lumbre::output::Look;
 use std::path::PathBuf;
 
@@ -31,9 +33,9 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
-    /// What the camera sees behind the scene. What is left out still gives light.
-    #[arg(long, default_value = "scene")]
-    pub(crate) background: Background,
+    /// What the camera sees behind the scene. What is left out still gives light. [default: scene]
+    #[arg(long)]
+    pub(crate) background: Option<Background>,
 
     /// Number of the first sample of each pixel. A render can be split: each part takes --spp samples from here, its .exr carries
     /// the exact sums, and `lumbre merge` adds them to the bits of one run.
@@ -59,12 +61,10 @@ impl OutputArgs {
         self.keep_sums || self.first_sample.is_some()
     }
 
-    /// Names and values of what decides the picture, for the metadata of a file.
-    pub(crate) fn described(&self) -> Vec<(&'static str, String)> {
-        match self.background {
-            Background::Scene => Vec::new(),
-            Background::Transparent => vec![(BACKGROUND, TRANSPARENT.into())],
-        }
+    /// Settings with what was given of the background.
+    pub(crate) fn settings(&self, base: RenderSettings) -> RenderSettings {
+        let transparent = self.background.map(|b| b == Background::Transparent);
+        RenderSettings { transparent_background: transparent.unwrap_or(base.transparent_background), ..base }
     }
 }
 
@@ -78,23 +78,23 @@ pub(crate) const TRANSPARENT: &str = "transparent";
 #[command(next_help_heading = "Look (PNG and JPEG; EXR and HDR keep radiance as it is)")]
 pub(crate) struct LookArgs {
     /// Brightness: `auto` makes the log-average luminance middle grey (0.18), `thesis` is 0.5 over the average clamped to
-    /// 0.1..1, a number is stops: each one more doubles.
-    #[arg(long, value_name = "auto|thesis|EV", default_value = "auto", value_parser = exposure)]
-    #[arg(allow_hyphen_values = true)]
-    pub(crate) exposure: Exposure,
+    /// 0.1..1, a number is stops: each one more doubles. [default: auto]
+    #[arg(long, value_name = "auto|thesis|EV", value_parser = exposure, allow_hyphen_values = true)]
+    pub(crate) exposure: Option<Exposure>,
 
     /// Tone curve: `srgb` and `linear` (gamma 2.2) clip what is brighter than white; `reinhard`, `aces` and `agx` roll it off,
-    /// and so does `neutral`, which keeps the colours of materials.
-    #[arg(long, value_name = "CURVE", default_value = "srgb", value_parser = tone)]
-    pub(crate) tone: ToneCurve,
+    /// and so does `neutral`, which keeps the colours of materials. [default: srgb]
+    #[arg(long, value_name = "CURVE", value_parser = tone)]
+    pub(crate) tone: Option<ToneCurve>,
 
-    /// Darkens towards the corners, which keep 1 - X of their light; 0 to 1.
-    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = vignette, allow_negative_numbers = true)]
-    pub(crate) vignette: f32,
+    /// Darkens towards the corners, which keep 1 - X of their light; 0 to 1. [default: 0]
+    #[arg(long, value_name = "X", value_parser = vignette, allow_negative_numbers = true)]
+    pub(crate) vignette: Option<f32>,
 
     /// Chromatic aberration: enlarges red about the centre by X per cent and makes blue smaller by as much; -50 to 50.
-    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = aberration, allow_hyphen_values = true)]
-    pub(crate) aberration: f32,
+    /// [default: 0]
+    #[arg(long, value_name = "X", value_parser = aberration, allow_hyphen_values = true)]
+    pub(crate) aberration: Option<f32>,
 
     /// Quality of a JPEG.
     #[arg(long, value_name = "1..100", default_value_t = lumbre::output::QUALITY, allow_negative_numbers = true)]
@@ -103,10 +103,18 @@ pub(crate) struct LookArgs {
 }
 
 impl LookArgs {
-    /// The same in the library's terms, of an opaque picture.
-    pub(crate) fn look(&self) -> Look {
-        let LookArgs { exposure, tone, vignette, aberration, quality: _ } = *self;
-        Look { exposure, tone, vignette, aberration, transparent: false }
+    /// The same in the library's terms: what was given, in the place of what stands in `base`.
+    pub(crate) fn look(&self, base: LookEdits) -> LookEdits {
+        let LookEdits { look, offset_ev } = base;
+        let look = Look {
+            exposure: self.exposure.unwrap_or(look.exposure),
+            tone: self.tone.unwrap_or(look.tone),
+            vignette: self.vignette.unwrap_or(look.vignette),
+            aberration: self.aberration.unwrap_or(look.aberration),
+            ..look
+        };
+        // Who says an exposure means just that.
+        LookEdits { look, offset_ev: if self.exposure.is_some() { 0.0 } else { offset_ev } }
     }
 }
 

@@ -3,13 +3,15 @@
 use super::camera::CameraArgs;
 use super::light::LightArgs;
 use super::loading::LoadingArgs;
-use super::output::{Background, OutputArgs};
+use super::output::OutputArgs;
 use super::replay::ReplayArgs;
 use super::run::RunArgs;
 use super::sampling::SamplingArgs;
 use super::targets::TargetArgs;
 use clap::Args;
 use lumbre::core::settings::RenderSettings;
+use lumbre::edits::LookEdits;
+use lumbre::output::Look;
 use std::path::PathBuf;
 
 /// Shown below the flags.
@@ -29,6 +31,8 @@ Examples:
       lit by a photograph
   lumbre render scene.glb -o view.png --look-from -3,1.6,4 --look-at 0,1,0 --fov 35
       from elsewhere
+  lumbre render scene.glb --edits scene.edits.json
+      as it was left in the viewer; flags stand above what the file says
   lumbre render scene.glb --device gpu
       on the best GPU, or an error; without the flag on the CPU where there is none
   lumbre render scene.glb --pixel 310,204 --sample 7
@@ -67,7 +71,13 @@ pub(crate) struct RenderArgs {
 impl RenderArgs {
     /// What the integrator honours.
     pub(crate) fn settings(&self) -> RenderSettings {
-        let transparent_background = self.output.background == Background::Transparent;
-        RenderSettings { transparent_background, ..self.sampling.settings() }
+        let base = self.loading.edited.settings(RenderSettings::default());
+        self.output.settings(self.sampling.settings(base))
+    }
+
+    /// How the film is developed.
+    pub(crate) fn look(&self) -> LookEdits {
+        let look = self.output.look.look(self.loading.edited.look(LookEdits::default()));
+        LookEdits { look: Look { transparent: self.settings().transparent_background, ..look.look }, ..look }
     }
 }

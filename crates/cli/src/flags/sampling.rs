@@ -1,11 +1,13 @@
 //! Flags on how light is sampled.
 
+use super::output::BACKGROUND;
 use super::values::{Depth, Roulette, depth, positive, roulette};
 use clap::{Args, ValueEnum};
 use lumbre::core::bsdf::DiffuseSampling;
 use lumbre::core::filter::FilterKind;
 use lumbre::core::sampler::SamplerKind;
 use lumbre::core::settings::{RenderSettings, TransmissiveShadows};
+use lumbre::edits::Value;
 
 /// Random streams.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -69,100 +71,139 @@ pub(crate) enum BackFaces {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Sampling")]
 pub(crate) struct SamplingArgs {
-    /// Most scattering events on a path.
-    #[arg(long, value_name = "N|unlimited", allow_negative_numbers = true, default_value = "16", value_parser = depth)]
-    pub(crate) max_depth: Depth,
+    /// Most scattering events on a path. [default: 16]
+    #[arg(long, value_name = "N|unlimited", allow_negative_numbers = true, value_parser = depth)]
+    pub(crate) max_depth: Option<Depth>,
 
-    /// First scattering event after which Russian roulette may end a path.
-    #[arg(long, value_name = "N|off", allow_negative_numbers = true, default_value = "4", value_parser = roulette)]
-    pub(crate) roulette: Roulette,
+    /// First scattering event after which Russian roulette may end a path. [default: 4]
+    #[arg(long, value_name = "N|off", allow_negative_numbers = true, value_parser = roulette)]
+    pub(crate) roulette: Option<Roulette>,
 
-    /// Random stream.
-    #[arg(long, default_value = "sobol")]
-    pub(crate) sampler: Sampler,
+    /// Random stream. [default: sobol]
+    #[arg(long)]
+    pub(crate) sampler: Option<Sampler>,
 
-    /// Seed of the random stream: another one gives other noise.
-    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
-    pub(crate) seed: u32,
+    /// Seed of the random stream: another one gives other noise. [default: 0]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(crate) seed: Option<u32>,
 
-    /// Pixel filter.
-    #[arg(long, default_value = "blackman-harris")]
-    pub(crate) filter: Filter,
+    /// Pixel filter. [default: blackman-harris]
+    #[arg(long)]
+    pub(crate) filter: Option<Filter>,
 
-    /// Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never.
-    #[arg(long, default_value = "on")]
-    pub(crate) light_sampling: Switch,
+    /// Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never. [default: on]
+    #[arg(long)]
+    pub(crate) light_sampling: Option<Switch>,
 
-    /// What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint.
-    #[arg(long, default_value = "auto")]
-    pub(crate) transmissive_shadows: Shadows,
+    /// What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint. [default: auto]
+    #[arg(long)]
+    pub(crate) transmissive_shadows: Option<Shadows>,
 
-    /// Whether camera rays see the back of single-sided opaque surfaces.
-    #[arg(long, default_value = "cull")]
-    pub(crate) back_faces: BackFaces,
+    /// Whether camera rays see the back of single-sided opaque surfaces. [default: cull]
+    #[arg(long)]
+    pub(crate) back_faces: Option<BackFaces>,
 
     /// Most that light which has scattered twice or more may add to a sample at a time, nits (biased: it takes bright dots away,
     /// and light with them). [default: no limit]
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = positive)]
     pub(crate) clamp: Option<f32>,
 
-    /// How diffuse directions are drawn (for comparisons).
-    #[arg(long, default_value = "cosine")]
-    pub(crate) hemisphere: Hemisphere,
+    /// How diffuse directions are drawn (for comparisons). [default: cosine]
+    #[arg(long)]
+    pub(crate) hemisphere: Option<Hemisphere>,
 }
 
 impl SamplingArgs {
-    /// The same in the library's terms.
-    pub(crate) fn settings(&self) -> RenderSettings {
+    /// The same in the library's terms: what was given, in the place of what stands in `base`.
+    pub(crate) fn settings(&self, base: RenderSettings) -> RenderSettings {
+        let sampler = self.sampler.map(|s| match s {
+            Sampler::Sobol => SamplerKind::Sobol,
+            Sampler::Independent => SamplerKind::Independent,
+        });
+        let filter = self.filter.map(|f| match f {
+            Filter::Box => FilterKind::Box,
+            Filter::Tent => FilterKind::Tent,
+            Filter::Gaussian => FilterKind::Gaussian,
+            Filter::BlackmanHarris => FilterKind::BlackmanHarris,
+        });
+        let shadows = self.transmissive_shadows.map(|s| match s {
+            Shadows::Auto => TransmissiveShadows::Auto,
+            Shadows::Physical => TransmissiveShadows::Physical,
+            Shadows::Straight => TransmissiveShadows::Straight,
+        });
+        let diffuse = self.hemisphere.map(|h| match h {
+            Hemisphere::Cosine => DiffuseSampling::Cosine,
+            Hemisphere::Uniform => DiffuseSampling::Uniform,
+        });
         RenderSettings {
-            max_depth: self.max_depth.0,
-            roulette: self.roulette.0,
-            sampler: match self.sampler {
-                Sampler::Sobol => SamplerKind::Sobol,
-                Sampler::Independent => SamplerKind::Independent,
-            },
-            seed: self.seed,
-            filter: match self.filter {
-                Filter::Box => FilterKind::Box,
-                Filter::Tent => FilterKind::Tent,
-                Filter::Gaussian => FilterKind::Gaussian,
-                Filter::BlackmanHarris => FilterKind::BlackmanHarris,
-            },
-            light_sampling: self.light_sampling == Switch::On,
-            transmissive_shadows: match self.transmissive_shadows {
-                Shadows::Auto => TransmissiveShadows::Auto,
-                Shadows::Physical => TransmissiveShadows::Physical,
-                Shadows::Straight => TransmissiveShadows::Straight,
-            },
-            diffuse_sampling: match self.hemisphere {
-                Hemisphere::Cosine => DiffuseSampling::Cosine,
-                Hemisphere::Uniform => DiffuseSampling::Uniform,
-            },
-            shade_back_faces: self.back_faces == BackFaces::Shade,
-            clamp: self.clamp,
-            transparent_background: false,
-            object_colors: false,
+            max_depth: self.max_depth.map_or(base.max_depth, |d| d.0),
+            roulette: self.roulette.map_or(base.roulette, |r| r.0),
+            sampler: sampler.unwrap_or(base.sampler),
+            seed: self.seed.unwrap_or(base.seed),
+            filter: filter.unwrap_or(base.filter),
+            light_sampling: self.light_sampling.map_or(base.light_sampling, |s| s == Switch::On),
+            transmissive_shadows: shadows.unwrap_or(base.transmissive_shadows),
+            diffuse_sampling: diffuse.unwrap_or(base.diffuse_sampling),
+            shade_back_faces: self.back_faces.map_or(base.shade_back_faces, |b| b == BackFaces::Shade),
+            clamp: self.clamp.or(base.clamp),
+            ..base
         }
-    }
-
-    /// Names and values as they stand on the command line, for the metadata of a file.
-    pub(crate) fn described(&self) -> Vec<(&'static str, String)> {
-        vec![
-            ("maxDepth", self.max_depth.to_string()),
-            ("roulette", self.roulette.to_string()),
-            ("sampler", name(self.sampler)),
-            ("seed", self.seed.to_string()),
-            ("filter", name(self.filter)),
-            ("lightSampling", name(self.light_sampling)),
-            ("transmissiveShadows", name(self.transmissive_shadows)),
-            ("backFaces", name(self.back_faces)),
-            ("hemisphere", name(self.hemisphere)),
-            ("clamp", self.clamp.map_or_else(|| "off".into(), |c| c.to_string())),
-        ]
     }
 }
 
-/// The name of a value on the command line.
-fn name(value: impl ValueEnum) -> String {
-    value.to_possible_value().map(|v| v.get_name().to_string()).unwrap_or_default()
+/// Names and values of settings as they stand on the command line, for the metadata of a file and the foot of a table.
+pub(crate) fn described(settings: &RenderSettings) -> Vec<(&'static str, String)> {
+    let text = |value: Value| match value {
+        Value::Flag(on) => if on { "on" } else { "off" }.to_owned(),
+        Value::Word(word) => word.to_owned(),
+        other => other.to_string(),
+    };
+    let rows = lumbre::edits::settings_rows(settings).into_iter();
+    // The background has its own place, and is said only where it is left out.
+    rows.filter(|row| row.name != BACKGROUND).map(|row| (row.name, text(row.value))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::{CommandFactory, Parser};
+
+    #[derive(Debug, Parser)]
+    struct Only {
+        #[command(flatten)]
+        sampling: SamplingArgs,
+    }
+
+    #[test]
+    fn the_defaults_are_those_that_the_help_says() {
+        let none = Only::try_parse_from(["x"]).unwrap().sampling.settings(RenderSettings::default());
+        assert_eq!(none, RenderSettings::default());
+        for arg in Only::command().get_arguments().filter(|a| a.get_id() != "help") {
+            let help = arg.get_help().unwrap().to_string();
+            let (_, said) = help.trim_end_matches(']').split_once("[default: ").unwrap();
+            if said == "no limit" {
+                continue;
+            }
+            let flag = format!("--{}", arg.get_long().unwrap());
+            let given = Only::try_parse_from(["x", &flag, said]).unwrap().sampling;
+            // Over settings that differ from the default in everything, it brings the default back.
+            let other = RenderSettings {
+                max_depth: None,
+                roulette: None,
+                sampler: SamplerKind::Independent,
+                seed: 9,
+                filter: FilterKind::Box,
+                light_sampling: false,
+                transmissive_shadows: TransmissiveShadows::Physical,
+                diffuse_sampling: DiffuseSampling::Uniform,
+                shade_back_faces: true,
+                ..RenderSettings::default()
+            };
+            let differing = |s: &RenderSettings| {
+                let (a, b) = (described(s), described(&RenderSettings::default()));
+                a.into_iter().zip(b).filter(|(a, b)| a != b).count()
+            };
+            assert_eq!((differing(&other), differing(&given.settings(other))), (9, 8), "{flag}");
+        }
+    }
 }

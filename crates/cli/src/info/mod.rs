@@ -7,13 +7,15 @@ mod text;
 use crate::exit::{Code, Failure};
 use crate::flags::info::InfoArgs;
 use crate::flags::values::Size;
-use crate::{console, memory};
+use crate::{console, edited, memory};
 use lumbre::core::Film;
 use lumbre::io::{Description, ErrorKind, SceneChoice, describe_scene};
 use lumbre::{Device, GpuOptions, InfoError, SceneInfo};
 
 /// Runs the command.
-pub(crate) fn run(args: &InfoArgs) -> Result<Code, Failure> {
+pub(crate) fn run(args: &mut InfoArgs) -> Result<Code, Failure> {
+    args.loading.read_edits()?;
+    let args = &*args;
     Device::Cpu.open(&GpuOptions::default())?;
     let options = args.loading.options();
     let description = describe_scene(&args.scene, &options)?;
@@ -21,7 +23,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Code, Failure> {
     let warnings = opened.as_ref().map_or(&[][..], |l| &l.warnings);
     warnings.iter().for_each(console::warning);
     let (info, failure) = match opened {
-        Ok(loaded) => match lumbre::info(&loaded.scene) {
+        Ok(loaded) => match lumbre::info(&edited::apply(&args.loading, &args.scene, loaded.scene, None)?) {
             Ok(info) => (Some(info), None),
             Err(e) => (None, Some(e.into())),
         },

@@ -27,6 +27,7 @@ use std::time::Instant;
 /// Runs the command.
 pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
     let began = Instant::now();
+    args.loading.read_edits()?;
     // Whatever can be known to fail is found before the work begins.
     let device = match args.replay.pixel {
         Some(_) => Device::Cpu.open(&args.run.device.options())?,
@@ -37,29 +38,29 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
     }
     let args = &*args;
     let outputs = if args.replay.pixel.is_some() { Outputs::default() } else { outputs::check(args)? };
-    let camera = args.camera.options()?;
+    let camera = args.camera.options(&args.loading.edited)?;
     if let Some(Size(size)) = args.output.size {
         picture(args, &outputs, args.camera.part(size)?).check(args.run.memory_limit)?;
     }
     let cancel = interrupt::install()?;
     device::pool(&args.run.device)?.install(|| {
-        let Opened { compiled, camera, size, sky_added, load_seconds } = scene::open(args, &camera)?;
+        let Opened { compiled, camera: eye, size, sky_added, load_seconds } = scene::open(args, &camera)?;
         let part = args.camera.part(size)?;
         let scene_bytes = compiled.bytes();
         picture(args, &outputs, part).check_with(&compiled, device.is_gpu(), args.run.memory_limit)?;
-        let view = View { camera, settings: args.settings(), frame: 0 };
+        let view = View { camera: eye, settings: args.settings(), frame: 0 };
         let scene = args.output.keeps_sums().then(|| SceneHash::new(&compiled));
         let mut job = Job { args, outputs, view, size, part, scene, sky_added, began };
         if let Some(pixel) = args.replay.pixel {
             let backend = lumbre::prepare_cpu(compiled)?;
             device::said(&backend, "--pixel always runs there");
-            scene::focus(args, &backend, &mut job.view)?;
+            scene::focus(&camera, &backend, &mut job.view)?;
             return replay::run(&job, &backend, pixel);
         }
         let start = Instant::now();
         let backend = device::prepare(device, compiled)?;
         let build_seconds = start.elapsed().as_secs_f64();
-        scene::focus(args, &*backend, &mut job.view)?;
+        scene::focus(&camera, &*backend, &mut job.view)?;
         job.picture(&Prepared { backend: &*backend, load_seconds, build_seconds, scene_bytes }, &cancel)
     })
 }

@@ -1,9 +1,10 @@
 //! The files of a render: what `-o` and its kin ask for, and what is said in them.
 
 use crate::exit::Failure;
-use crate::flags::output::Background;
+use crate::flags::output::{BACKGROUND, TRANSPARENT};
 use crate::flags::render::RenderArgs;
 use crate::flags::run::ProgressFlag;
+use crate::flags::sampling;
 use crate::flags::values::{Sky, file_name};
 use crate::outputs::Outputs;
 use lumbre::io::STANDARD_OUTPUT;
@@ -11,10 +12,10 @@ use std::path::Path;
 
 /// Checks whatever can be known before the render.
 pub(super) fn check(args: &RenderArgs) -> Result<Outputs, Failure> {
-    let look = &args.output.look;
-    let inputs: Vec<&Path> =
-        [Some(&args.scene), args.light.env.as_ref()].into_iter().flatten().map(|p| &**p).collect();
-    let outputs = Outputs::check(&args.output.output, &inputs, look.look(), look.quality)?;
+    let inputs = [Some(&args.scene), args.light.env.as_ref(), args.loading.edits.as_ref()];
+    let inputs: Vec<&Path> = inputs.into_iter().flatten().map(|p| &**p).collect();
+    let quality = args.output.look.quality;
+    let outputs = Outputs::check(&args.output.output, &inputs, args.look(), quality)?;
     if outputs.uses_stdout() && args.run.progress == ProgressFlag::Json {
         return Err(Failure::usage(format!(
             "--progress json and the picture cannot both go to {STANDARD_OUTPUT}"
@@ -31,7 +32,7 @@ pub(super) fn check(args: &RenderArgs) -> Result<Outputs, Failure> {
     if args.targets.save_every.is_some() && !outputs.has_file() {
         return Err(Failure::usage("--save-every: standard output takes the finished picture only"));
     }
-    Ok(outputs.with_alpha(args.output.background == Background::Transparent))
+    Ok(outputs)
 }
 
 /// What made the picture. Nothing that differs from run to run, so that the same command writes the same bytes. Flags on camera
@@ -43,11 +44,14 @@ pub(super) fn metadata(
     interrupted: Option<u64>,
 ) -> Vec<(String, String)> {
     let mut all = vec![("version", env!("CARGO_PKG_VERSION").into()), ("scene", file_name(&args.scene))];
-    all.extend(args.sampling.described());
+    let settings = args.settings();
+    all.extend(sampling::described(&settings));
     all.extend(args.loading.described());
     all.extend(args.camera.described());
     all.extend(args.light.described());
-    all.extend(args.output.described());
+    if settings.transparent_background {
+        all.push((BACKGROUND, TRANSPARENT.into()));
+    }
     if sky_added {
         all.push(("sky", Sky::Gradient.to_string()));
     }

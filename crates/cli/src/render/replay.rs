@@ -25,7 +25,7 @@ pub(super) fn run(job: &Job<'_>, backend: &CpuBackend, pixel: [u32; 2]) -> Resul
     };
     print(format!(
         "sample  pixel {x},{y} of {width}x{height}, index {index}, seed {}",
-        job.args.sampling.seed
+        job.view.settings.seed
     ));
     let sample =
         backend.replay(&job.view, job.size, pixel, index, &mut |e: PathEvent<'_>| print(describe(&e)));

@@ -44,16 +44,16 @@ pub(super) fn open(args: &RenderArgs, options: &CameraOptions) -> Result<Opened,
     Ok(Opened { compiled: compiled.scene, camera: found.camera, size, sky_added, load_seconds })
 }
 
-/// Focuses an open lens on the centre of the picture, unless the flags say a distance.
-pub(super) fn focus(args: &RenderArgs, backend: &dyn Backend, view: &mut View) -> Result<(), Failure> {
-    if args.camera.aperture.is_none() {
+/// Focuses an open lens on the centre of the picture, unless a distance is asked for.
+pub(super) fn focus(asked: &CameraOptions, backend: &dyn Backend, view: &mut View) -> Result<(), Failure> {
+    if asked.aperture.is_none_or(|a| a == Aperture::Diameter(0.0)) {
         return Ok(());
     }
     let orthographic = matches!(view.camera.projection, Projection::Orthographic { .. });
-    if orthographic && matches!(args.camera.aperture, Some(Aperture::FNumber(_))) {
+    if orthographic && matches!(asked.aperture, Some(Aperture::FNumber(_))) {
         console::warning("--aperture f/N means nothing to an orthographic camera: a diameter in metres does");
     }
-    if args.camera.focus.is_some_and(|f| f != Focus::Auto) {
+    if asked.focus != Focus::Auto {
         return Ok(());
     }
     match device::surely(backend, || lumbre::focus_distance(backend, view, [0.5, 0.5]))? {

@@ -48,7 +48,7 @@ fn run(dir: &Path, backend: impl FnOnce(CompiledScene) -> Box<dyn Backend>) -> R
     let spp = SPP.to_string();
     let words = ["lumbre", "render", SMOOTH, "--size", "8x6", "--spp", &spp, "--progress", "off", "-o", &out];
     let Ok(Cli { command: Command::Render(args) }) = Cli::try_parse_from(words) else { panic!("flags") };
-    let opened = scene::open(&args, &args.camera.options()?)?;
+    let opened = scene::open(&args, &args.camera.options(&args.loading.edited)?)?;
     let view = View { camera: opened.camera, settings: args.settings(), frame: 0 };
     let job = Job {
         args: &args,

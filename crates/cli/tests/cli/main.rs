@@ -6,6 +6,7 @@ mod camera;
 mod common;
 mod compare;
 mod devices;
+mod edits;
 mod generated;
 mod gpu;
 mod info;

@@ -39,7 +39,7 @@ mod value;
 pub use error::EditsError;
 pub use item::Item;
 pub use param::{Changes, Row};
-pub use settings::LookEdits;
+pub use settings::{LookEdits, settings_rows};
 pub use value::{Kind, Value};
 
 use lumbre_core::settings::RenderSettings;

@@ -1,10 +1,11 @@
 //! The tables of what decides a picture besides its scene: settings of the render, with the names of the command line's flags, and the look.
 
-use super::param::{Access, FRACTION, HUGE, Param, field, number, or};
+use super::param::{Access, Changes, FRACTION, HUGE, Param, Row, field, number, or};
 use super::value::{Kind, Value};
 use crate::look::Look;
 use lumbre_core::bsdf::DiffuseSampling;
 use lumbre_core::color::Exposure;
+use lumbre_core::film::Film;
 use lumbre_core::filter::FilterKind;
 use lumbre_core::sampler::SamplerKind;
 use lumbre_core::settings::{RenderSettings, TransmissiveShadows};
@@ -139,6 +140,11 @@ pub(super) const SETTINGS: &[OfPaths] = &[
     ),
 ];
 
+/// Settings as rows, with the names of the command line's flags.
+pub fn settings_rows(settings: &RenderSettings) -> Vec<Row> {
+    Changes::default().rows(SETTINGS, *settings)
+}
+
 /// How a film is developed.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct LookEdits {
@@ -146,6 +152,14 @@ pub struct LookEdits {
     pub look: Look,
     /// Stops by which an exposure that finds itself is brighter.
     pub offset_ev: f32,
+}
+
+impl LookEdits {
+    /// The factor of its exposure on this film.
+    pub fn exposure_factor(&self, film: &Film) -> f32 {
+        let factor = self.look.exposure_factor(film);
+        if matches!(self.look.exposure, Exposure::Ev(_)) { factor } else { factor * self.offset_ev.exp2() }
+    }
 }
 
 const STOPS: Kind = number([-100.0, 100.0], [-10.0, 10.0], "EV");

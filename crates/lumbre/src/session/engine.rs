@@ -84,22 +84,22 @@ impl Engine {
     fn work(&mut self) -> Option<()> {
         let mut made = self.first_scene()?;
         loop {
-            let backend = self.prepare(&made)?;
+            let mut backend = self.prepare(&made)?;
             loop {
                 *self.shared.drawn() = Some(made.compiled.clone());
-                match self.frames(&*backend, &made)? {
+                let updated = match self.frames(&*backend, &made)? {
                     Next::Device => break,
                     Next::Scene(other, changes) => {
                         made = *other;
-                        if changes.is_none_or(|c| !c.is_empty()) {
-                            break;
-                        }
+                        let Some(changes) = changes else { break };
+                        backend.update(made.compiled.clone(), changes)
                     }
-                    Next::Lost(error) => {
-                        self.failed = Some(self.wanted.device.clone());
-                        self.sink.event(Event::Notice(format!("{error}; going on with the CPU")));
-                        break;
-                    }
+                    Next::Lost(error) => Err(error),
+                };
+                if let Err(error) = updated {
+                    self.failed = Some(self.wanted.device.clone());
+                    self.sink.event(Event::Notice(format!("{error}; going on with the CPU")));
+                    break;
                 }
             }
         }
@@ -155,7 +155,7 @@ impl Engine {
             let opened = device.open(&self.gpu).and_then(|open| {
                 open.notes().iter().for_each(|note| self.sink.event(Event::Notice(note.clone())));
                 // The session goes on by itself where a device fails, and then has the edited scene.
-                open.alone().prepare(made.compiled.clone())
+                open.alone().editable().prepare(made.compiled.clone())
             });
             match opened {
                 Ok(prepared) => {

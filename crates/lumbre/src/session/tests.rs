@@ -1,12 +1,15 @@
 //! Sessions on the CPU: what is sent after what was wanted.
 
 use super::*;
-use crate::{Device, Look, Targets, output, prepare, render};
+use crate::{Device, Look, Targets, output, render};
 use glam::{Mat4, Vec3};
 use lumbre_core::color::Exposure;
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_core::{Film, Rgb};
-use lumbre_scene::{Background, Material, MaterialId, Mesh, MeshId, Node, NodeId, Primitive, Scene, compile};
+use lumbre_scene::{
+    Background, Light, LightId, LightKind, Material, MaterialId, Mesh, MeshId, Node, NodeId, Primitive,
+    Scene, compile,
+};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
@@ -114,7 +117,8 @@ fn wanted() -> Wanted {
 }
 
 fn rendered(w: &Wanted, spp: u32) -> Film {
-    let backend = prepare(compile(&w.scene).unwrap().scene, Device::Cpu).unwrap();
+    let open = Device::Cpu.open(&GpuOptions::default()).unwrap().editable();
+    let backend = open.prepare(compile(&w.scene).unwrap().scene).unwrap().backend;
     let view = View { camera: w.camera, settings: w.settings, frame: 0 };
     let mut film = Film::new(w.size[0], w.size[1]);
     render(&*backend, &view, Targets::spp(spp), &mut film, &()).unwrap();
@@ -268,4 +272,38 @@ fn an_eased_exposure_arrives() {
     let first = s.frame(|_| true).stats.exposure_ev;
     assert!(first < before + 2.9, "{before} {first}");
     s.frame(|f| (f.stats.exposure_ev - before - 3.0).abs() < 0.05);
+}
+
+#[test]
+fn edits_draw_what_a_scene_made_that_way_draws() {
+    let mut w = wanted();
+    let mut s = Watched::start(w.clone());
+    s.frame(|f| f.stats.done);
+    let edits: [fn(&mut Scene); 5] = [
+        |scene| scene.materials[0].base_color = Rgb::new(0.1, 0.9, 0.2),
+        |scene| scene.nodes[0].transform *= Mat4::from_rotation_y(0.5),
+        |scene| {
+            scene.lights.push(Light {
+                name: String::new(),
+                kind: LightKind::Point,
+                intensity: Rgb::splat(5.0),
+            });
+            let transform = Mat4::from_translation(Vec3::new(0.5, 1.0, 1.5));
+            scene.add_root(Node { transform, light: Some(LightId(0)), ..Node::default() });
+        },
+        |scene| scene.environment.background = Background::Constant(Rgb::new(0.1, 0.2, 0.4)),
+        |scene| scene.nodes[0].visible = false,
+    ];
+    for edit in edits {
+        let mut scene = Scene::clone(&w.scene);
+        edit(&mut scene);
+        w.scene = Arc::new(scene);
+        let number = s.session.set(w.clone());
+        let frame = s.frame(|f| f.number == number && f.stats.done);
+        let want = output::develop(&rendered(&w, 20), &w.look.look).bytes;
+        let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|p| p[..3].to_vec()).collect();
+        assert!(rgb == want);
+    }
+    let prepared = s.events.iter().filter(|e| matches!(e, Event::Prepared { .. })).count();
+    assert_eq!(prepared, 1, "the scene is brought to the device once");
 }

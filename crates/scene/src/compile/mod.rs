@@ -4,7 +4,7 @@
 //! by its transform, a punctual light without power) is left out and named in the notes.
 //!
 //! A scene that differs little from one that was compiled is made from that: each stage asks whether what it reads is still the same
-//! ([`earlier`]) and then shares what it made. The result is the same either way.
+//! (`earlier.rs`) and then shares what it made. The result is the same either way.
 
 mod earlier;
 mod environment;

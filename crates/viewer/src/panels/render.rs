@@ -23,7 +23,25 @@ pub(super) fn show(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
     if state.document.is_some() {
         ui.separator();
         table(ui, state, Item::Settings, out);
+        ui.separator();
+        keep(ui, out);
     }
+}
+
+/// What is kept of it all.
+fn keep(ui: &mut Ui, out: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        for (text, action) in [("Save picture…", Action::SavePicture), ("Save edits…", Action::SaveEdits)]
+        {
+            if ui.button(text).on_hover_text(keys_of(action)).clicked() {
+                out.push(Command::Do(action));
+            }
+        }
+        let copy = ui.button("Copy command");
+        if copy.on_hover_text("The line that makes `lumbre render` draw this").clicked() {
+            out.push(Command::CopyCommand);
+        }
+    });
 }
 
 fn buttons(ui: &mut Ui, running: &Running, out: &mut Vec<Command>) {

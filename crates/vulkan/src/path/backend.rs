@@ -1,6 +1,7 @@
 //! A scene on a GPU, rendered into films. Twin of the loop over tiles: `cpu/src/backend.rs`.
 
 mod canvas;
+mod edited;
 mod own_rays;
 
 pub use canvas::Canvas;
@@ -21,7 +22,7 @@ use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::{Crop, Film};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::{RenderSettings, View};
-use lumbre_scene::{CompiledScene, Part, SceneChanges};
+use lumbre_scene::CompiledScene;
 use lumbre_shaders as shaders;
 use lumbre_shaders::view::{Push, QueueHeads, ViewTable, queue};
 use std::collections::VecDeque;
@@ -29,8 +30,8 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Choices of settings whose pipelines are kept.
-const VARIANTS: usize = 4;
+/// Choices of settings and features whose pipelines are kept.
+const VARIANTS: usize = 8;
 
 /// Most scattering events of one submission; longer paths take several.
 const MOST_STEPS: u32 = 64;
@@ -188,33 +189,6 @@ impl VulkanBackend {
             failed: None,
             work: Mutex::new(Work::new()),
         })
-    }
-
-    /// Takes an edited scene, which differs from the present one in `changes`: what it then draws is what a new backend with the same
-    /// options would draw. What changed goes to the device; pipelines are made again only when the scene needs a feature that those there are
-    /// lack, and acceleration structures of meshes only where [`SceneOnGpu::update`] says so.
-    ///
-    /// # Errors
-    /// If memory is out or the device is lost. Nothing can be drawn then until another update succeeds.
-    pub fn update(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<(), VulkanError> {
-        // What a failure left is made anew.
-        let changes = if self.failed.is_some() { SceneChanges::all() } else { changes };
-        self.failed = self.take(scene, changes).err();
-        self.failed.clone().map_or(Ok(()), Err)
-    }
-
-    fn take(&mut self, scene: &CompiledScene, changes: SceneChanges) -> Result<(), VulkanError> {
-        let work = self.work.get_mut().unwrap_or_else(PoisonError::into_inner);
-        if self.scene.update(scene, changes)? {
-            work.variants.clear();
-        }
-        let moved = changes.geometry() || changes.any(&[Part::Instances, Part::Transforms]);
-        if moved || changes.has(Part::Materials) {
-            self.solids.update(scene, moved);
-            work.media = None;
-        }
-        self.constants = SceneConstants::new(scene);
-        Ok(())
     }
 
     /// The device.
