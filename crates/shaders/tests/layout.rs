@@ -66,7 +66,7 @@ fn rust() -> Vec<(&'static str, Members)> {
         fields!("QueueHead", QueueHead { count, one_row, one_layer, unused }),
         fields!("QueueHeads", QueueHeads { at, groups, path_rays, shadow_rays }),
         fields!("ViewTable", ViewTable { film, non_finite, state, queues, heads, picture, origin, size, capacity, seed, frame, max_depth, roulette, clamp_to,
-            filter_kind, camera, media }),
+            filter_kind, object_colors, unused, camera, media }),
         fields!("PostPush", PostPush { film, blocks, state, display, size, block_side, block_count, exposure, factor, ease, tone, vignette,
             center, half_diagonal, aberrates, shrinks, transparent }),
         fields!("Push", Push { tables, scene, view, first_pixel, size, first_sample, sample_count, parity, group }),

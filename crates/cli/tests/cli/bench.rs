@@ -85,6 +85,34 @@ fn two_devices_at_equal_time() {
     lumbre(&format!("bench {words} --device gpu")).exits(69).says("no GPU for `gpu`: ");
 }
 
+/// Of grids that are made for it, or of a scene; the CPU says how long it took and what it holds, no more.
+#[test]
+fn structures_have_their_bytes() {
+    let (line, grids) = rows("build --triangles 200,5000 --device cpu");
+    let triangles: Vec<_> = grids.iter().map(|r| (r["scene"].clone(), r["triangles"].clone())).collect();
+    assert_eq!(triangles, [("grid".into(), 200.into()), ("grid".into(), 5000.into())]);
+    for row in &grids {
+        assert!((8.0..400.0).contains(&number(row, "bytes")) && number(row, "ready_ms") > 0.0, "{row}");
+        assert!(row["bytes_built"].is_null() && row["build_ms"].is_null(), "{row}");
+    }
+    assert!(line["settings"]["device"].as_str().unwrap().starts_with("CPU ("));
+    let (_, named) = rows(&format!("build {CORNELL} --device cpu"));
+    assert_eq!((named.len(), &named[0]["scene"]), (1, &"cornell.glb".into()));
+    lumbre("bench build --triangles 0").exits(2);
+}
+
+/// Steps add to the whole.
+#[test]
+fn the_first_frame_is_made_of_its_steps() {
+    let (_, all) = rows(&format!("first-frame {SMOOTH} --sizes 16x12 --device cpu"));
+    let row = &all[0];
+    assert_eq!((all.len(), &row["scene"], &row["size"]), (1, &"smooth.gltf".into(), &"16x12".into()));
+    let steps = ["before", "device", "load", "compile", "upload", "pipelines", "frame", "develop"];
+    let sum: f64 = steps.iter().map(|step| number(row, &format!("{step}_ms"))).sum();
+    assert!(row["build_ms"].is_null() && number(row, "load_ms") > 0.0, "{row}");
+    assert!((number(row, "total_ms") - sum).abs() < 1.0 + 0.01 * sum, "{row}");
+}
+
 #[test]
 fn tables_for_people_and_for_pages() {
     let text = lumbre(&format!("bench path {SMOOTH} {SMALL} --depths 1")).exits(0).says("depth 1: 1 a frame");

@@ -115,6 +115,25 @@ fn a_scene_that_does_not_fit_is_said_with_what_there_is() {
     run.says("not enough GPU memory").says("; taking the CPU (").says("device: CPU (");
 }
 
+/// The device's own figures: what compaction leaves, and what building took.
+#[test]
+fn structures_on_the_gpu_are_compacted() {
+    if !gpu() {
+        return;
+    }
+    let mut c = with_gpus();
+    c.args(["bench", "build", "--triangles", "300", "--device", "gpu", "--json"]);
+    let line = Run::from(c.output().unwrap()).exits(0).last_json();
+    let (row, number) = (&line["rows"][0], |key: &str| line["rows"][0][key].as_f64().unwrap());
+    assert!(row["triangles"] == 338 && number("bytes") <= number("bytes_built"), "{row}");
+    assert!(["build_ms", "compact_ms", "top_build_ms", "ready_ms"].iter().all(|k| number(k) > 0.0), "{row}");
+    let mut c = with_gpus();
+    c.args(["bench", "first-frame", SMOOTH, "--sizes", "16x12", "--device", "gpu", "--json"]);
+    let line = Run::from(c.output().unwrap()).exits(0).last_json();
+    let number = |key: &str| line["rows"][0][key].as_f64().unwrap();
+    assert!(number("pipelines_ms") > 0.0 && number("build_ms") > 0.0 && number("upload_ms") > 0.0, "{line}");
+}
+
 #[test]
 fn frames_of_the_gpu_have_its_own_times() {
     if !gpu() {
