@@ -3,7 +3,9 @@
 //! `fuzz/` holds the fuzz targets (`cargo fuzz`), each a line that calls [`Target::run`]; `tests/corpus.rs` replays the inputs kept in
 //! `fuzz/corpus`. Whatever the bytes, a target returns; a panic, a hang or memory beyond the limits is a fault of the reader.
 
+use lumbre::edits::Edits;
 use lumbre_io::{Limits, LoadOptions, load_scene, read_environment, read_exr, read_linear_image};
+use lumbre_scene::{Material, Node, Scene};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
@@ -39,11 +41,13 @@ pub enum Target {
     Tga,
     /// Windows bitmap.
     Bmp,
+    /// What was changed of a scene.
+    Edits,
 }
 
 impl Target {
     /// Every target.
-    pub const ALL: [Target; 13] = [
+    pub const ALL: [Target; 14] = [
         Target::Gltf,
         Target::Glb,
         Target::Obj,
@@ -57,6 +61,7 @@ impl Target {
         Target::Ktx2,
         Target::Tga,
         Target::Bmp,
+        Target::Edits,
     ];
 
     /// Its name: that of the fuzz target, of the folder of its corpus, and the extension of its files.
@@ -75,6 +80,7 @@ impl Target {
             Target::Ktx2 => "ktx2",
             Target::Tga => "tga",
             Target::Bmp => "bmp",
+            Target::Edits => "edits",
         }
     }
 
@@ -119,6 +125,10 @@ impl Target {
                 write(&path, data);
                 read_linear_image(&path, None, &limits()).is_ok()
             }
+            Target::Edits => {
+                write(&path, data);
+                edits(&path)
+            }
             Target::Ktx2 => {
                 write(&path, data);
                 let scene = folder.join("ktx2.gltf");
@@ -154,6 +164,17 @@ fn loads(path: &Path) -> bool {
     let options = LoadOptions { limits: limits(), ..LoadOptions::default() };
     // What loads must compile or say why not.
     load_scene(path, &options).is_ok_and(|loaded| lumbre_scene::compile(&loaded.scene).is_ok())
+}
+
+/// What is read is written so that it is read again, and changes a scene or says why not.
+fn edits(path: &Path) -> bool {
+    let Ok(edits) = Edits::read(path) else { return false };
+    let text = edits.to_text();
+    assert_eq!(Edits::parse(&text).as_ref().map(Edits::to_text), Ok(text));
+    let mut scene = Scene::default();
+    scene.add_material(Material { name: "a".into(), ..Material::default() });
+    scene.add_root(Node { name: "a".into(), ..Node::default() });
+    edits.apply(&scene).is_ok_and(|scene| lumbre_scene::compile(&scene).is_ok())
 }
 
 /// A triangle with one texture, `a.ktx2`.
