@@ -126,9 +126,8 @@ mod tests {
             indices: vec![0, 1, 2],
             ..lumbre::scene::Primitive::default()
         };
-        let mesh = scene.add_mesh(
-            lumbre::scene::Mesh { primitives: vec![primitive], ..lumbre::scene::Mesh::default() },
-        );
+        let mesh = scene
+            .add_mesh(lumbre::scene::Mesh { primitives: vec![primitive], ..lumbre::scene::Mesh::default() });
         scene.add_root(lumbre::scene::Node { mesh: Some(mesh), ..lumbre::scene::Node::default() });
         let compiled = lumbre::compile(&scene).unwrap().scene;
         for aspect in [0.7, 1.6] {

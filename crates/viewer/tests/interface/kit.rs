@@ -235,7 +235,11 @@ impl Window {
     /// Scrolls to the field of a row.
     pub(crate) fn into_view(&mut self, name: &str) -> Rect {
         let field = |w: &Self| w.ui.get_all_by_label(name).find(|n| n.value().is_some()).map(|n| n.rect());
-        self.ui.get_all_by_label(name).find(|n| n.value().is_some()).expect("a field of this name").scroll_to_me();
+        self.ui
+            .get_all_by_label(name)
+            .find(|n| n.value().is_some())
+            .expect("a field of this name")
+            .scroll_to_me();
         self.steps(40);
         field(self).expect("a field of this name")
     }
