@@ -37,7 +37,8 @@ fn a_drag_of_a_slider_is_one_step() {
     window.unfold("Material");
     let before = roughness(&window);
     let slider = window.into_view("Roughness");
-    let (from, to) = (slider.left_center() + [20.0, 0.0].into(), slider.left_center() + [70.0, 0.0].into());
+    // To the left: it stands at its most.
+    let (from, to) = (slider.center(), slider.center() - eframe::egui::vec2(60.0, 0.0));
     let mut passed = 0;
     let told = window.fake.count();
     window.drag(from, to, PointerButton::Primary, |w| passed = w.fake.count() - told);
