@@ -26,6 +26,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('-V', '-V ', [CompletionResultType]::ParameterName, 'Print version')
             [CompletionResult]::new('--version', '--version', [CompletionResultType]::ParameterName, 'Print version')
             [CompletionResult]::new('render', 'render', [CompletionResultType]::ParameterValue, 'Render a scene to a picture')
+            [CompletionResult]::new('view', 'view', [CompletionResultType]::ParameterValue, 'Look at a scene in a window, walk through it and change it')
             [CompletionResult]::new('info', 'info', [CompletionResultType]::ParameterValue, 'Say what a scene holds, what it takes, and why its picture might be black')
             [CompletionResult]::new('compare', 'compare', [CompletionResultType]::ParameterValue, 'Measure how much a picture differs from a reference')
             [CompletionResult]::new('merge', 'merge', [CompletionResultType]::ParameterValue, 'Add parts of one render, made apart, to the picture of one run')
@@ -99,6 +100,33 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('--keep-sums', '--keep-sums', [CompletionResultType]::ParameterName, 'An .exr carries the exact sums of its samples (about 150 bytes a pixel before compression), so that `lumbre merge` can add more; --first-sample implies it')
             [CompletionResult]::new('--validation', '--validation', [CompletionResultType]::ParameterName, 'Lets Vulkan''s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program')
             [CompletionResult]::new('--stats', '--stats', [CompletionResultType]::ParameterName, 'At the end, say in a table what took how much time and memory; with --progress json as part of the last line')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            break
+        }
+        'lumbre;view' {
+            [CompletionResult]::new('--size', '--size', [CompletionResultType]::ParameterName, 'Size of the window, in the points of the display. [default: 1280x800]')
+            [CompletionResult]::new('--device', '--device', [CompletionResultType]::ParameterName, 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them')
+            [CompletionResult]::new('--threads', '--threads', [CompletionResultType]::ParameterName, 'Threads. [default: one for each processor]')
+            [CompletionResult]::new('--scene', '--scene', [CompletionResultType]::ParameterName, 'Which of the file''s scenes: its name, or its number from 0. [default: the one that the file names, else the first]')
+            [CompletionResult]::new('--variant', '--variant', [CompletionResultType]::ParameterName, 'Which of the file''s sets of materials, by name. [default: the materials that stand without one]')
+            [CompletionResult]::new('--edits', '--edits', [CompletionResultType]::ParameterName, 'What was changed of the scene, as `lumbre view` writes it (docs/edits.md says what can stand there): camera, lights, materials, places of things, settings, look. Flags that are given stand above it')
+            [CompletionResult]::new('--asset-dir', '--asset-dir', [CompletionResultType]::ParameterName, 'Folder from which textures and other files that the scene names may be read too. May be given several times')
+            [CompletionResult]::new('--max-file-bytes', '--max-file-bytes', [CompletionResultType]::ParameterName, 'Bytes of one file, such as 4GiB. [default: 8GiB]')
+            [CompletionResult]::new('--max-json-bytes', '--max-json-bytes', [CompletionResultType]::ParameterName, 'Bytes of a scene''s JSON. [default: 256MiB]')
+            [CompletionResult]::new('--max-json-objects', '--max-json-objects', [CompletionResultType]::ParameterName, 'Objects in a scene''s JSON, of all kinds together. [default: 4194304]')
+            [CompletionResult]::new('--max-json-depth', '--max-json-depth', [CompletionResultType]::ParameterName, 'Lists and objects of a scene''s JSON inside one another, up to 127. [default: 64]')
+            [CompletionResult]::new('--max-buffer-bytes', '--max-buffer-bytes', [CompletionResultType]::ParameterName, 'Bytes of all buffers of a scene; also of all its encoded images. [default: 16GiB]')
+            [CompletionResult]::new('--max-image-side', '--max-image-side', [CompletionResultType]::ParameterName, 'Columns or rows of an image. [default: 32768]')
+            [CompletionResult]::new('--max-image-bytes', '--max-image-bytes', [CompletionResultType]::ParameterName, 'Bytes of one image once decoded. [default: 4GiB]')
+            [CompletionResult]::new('--max-total-image-bytes', '--max-total-image-bytes', [CompletionResultType]::ParameterName, 'Bytes of all images of a scene once decoded. [default: 16GiB]')
+            [CompletionResult]::new('--max-triangles', '--max-triangles', [CompletionResultType]::ParameterName, 'Triangles, each mesh counted once. [default: 500000000]')
+            [CompletionResult]::new('--max-vertices', '--max-vertices', [CompletionResultType]::ParameterName, 'Vertices, each mesh counted once. [default: 500000000]')
+            [CompletionResult]::new('--max-zero-filled', '--max-zero-filled', [CompletionResultType]::ParameterName, 'Elements of a glTF accessor that has no data of its own. [default: 1048576]')
+            [CompletionResult]::new('--max-instances', '--max-instances', [CompletionResultType]::ParameterName, 'Meshes that the nodes place in the world. [default: 16777216]')
+            [CompletionResult]::new('--max-node-depth', '--max-node-depth', [CompletionResultType]::ParameterName, 'Nodes beneath one another. [default: 1048576]')
+            [CompletionResult]::new('--watch', '--watch', [CompletionResultType]::ParameterName, 'Opens the scene again when its file changes')
+            [CompletionResult]::new('--validation', '--validation', [CompletionResultType]::ParameterName, 'Lets Vulkan''s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program')
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             break
@@ -180,7 +208,8 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             [CompletionResult]::new('--warm-up', '--warm-up', [CompletionResultType]::ParameterName, 'Frames before them; frames of the first 0.7 s do not count in any case')
             [CompletionResult]::new('--budget', '--budget', [CompletionResultType]::ParameterName, 'Most time for the frames of one figure; one frame is always taken')
             [CompletionResult]::new('--spp', '--spp', [CompletionResultType]::ParameterName, 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]')
-            [CompletionResult]::new('--time', '--time', [CompletionResultType]::ParameterName, 'Time for each device in `equal-time`')
+            [CompletionResult]::new('--triangles', '--triangles', [CompletionResultType]::ParameterName, 'Triangles of the grids of `build`, at least')
+            [CompletionResult]::new('--time', '--time', [CompletionResultType]::ParameterName, 'Time for each device in `equal-time`, and of the edits of `view`')
             [CompletionResult]::new('--max-depth', '--max-depth', [CompletionResultType]::ParameterName, 'Most scattering events on a path. [default: 16]')
             [CompletionResult]::new('--roulette', '--roulette', [CompletionResultType]::ParameterName, 'First scattering event after which Russian roulette may end a path. [default: 4]')
             [CompletionResult]::new('--sampler', '--sampler', [CompletionResultType]::ParameterName, 'Random stream. [default: sobol]')
@@ -234,6 +263,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
         }
         'lumbre;help' {
             [CompletionResult]::new('render', 'render', [CompletionResultType]::ParameterValue, 'Render a scene to a picture')
+            [CompletionResult]::new('view', 'view', [CompletionResultType]::ParameterValue, 'Look at a scene in a window, walk through it and change it')
             [CompletionResult]::new('info', 'info', [CompletionResultType]::ParameterValue, 'Say what a scene holds, what it takes, and why its picture might be black')
             [CompletionResult]::new('compare', 'compare', [CompletionResultType]::ParameterValue, 'Measure how much a picture differs from a reference')
             [CompletionResult]::new('merge', 'merge', [CompletionResultType]::ParameterValue, 'Add parts of one render, made apart, to the picture of one run')
@@ -245,6 +275,9 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
             break
         }
         'lumbre;help;render' {
+            break
+        }
+        'lumbre;help;view' {
             break
         }
         'lumbre;help;info' {

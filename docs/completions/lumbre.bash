@@ -43,6 +43,9 @@ _lumbre() {
             lumbre,render)
                 cmd="lumbre__subcmd__render"
                 ;;
+            lumbre,view)
+                cmd="lumbre__subcmd__view"
+                ;;
             lumbre__subcmd__help,bench)
                 cmd="lumbre__subcmd__help__subcmd__bench"
                 ;;
@@ -70,6 +73,9 @@ _lumbre() {
             lumbre__subcmd__help,render)
                 cmd="lumbre__subcmd__help__subcmd__render"
                 ;;
+            lumbre__subcmd__help,view)
+                cmd="lumbre__subcmd__help__subcmd__view"
+                ;;
             *)
                 ;;
         esac
@@ -77,7 +83,7 @@ _lumbre() {
 
     case "${cmd}" in
         lumbre)
-            opts="-h -V --help --version render info compare merge devices bench completions man help"
+            opts="-h -V --help --version render view info compare merge devices bench completions man help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -91,7 +97,7 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__bench)
-            opts="-h --camera --look-from --look-at --fov --sizes --depths --samples --frames --warm-up --budget --spp --time --markdown --json --max-depth --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --sky --sun --env --env-rotate --env-strength --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help path samples depth size hemisphere still share equal-time"
+            opts="-h --camera --look-from --look-at --fov --sizes --depths --samples --frames --warm-up --budget --spp --triangles --time --markdown --json --max-depth --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --sky --sun --env --env-rotate --env-strength --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help path samples depth size hemisphere still share equal-time build first-frame view"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -138,6 +144,10 @@ _lumbre() {
                     return 0
                     ;;
                 --spp)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --triangles)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -351,7 +361,7 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__help)
-            opts="render info compare merge devices bench completions man help"
+            opts="render view info compare merge devices bench completions man help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -477,6 +487,20 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__help__subcmd__render)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        lumbre__subcmd__help__subcmd__view)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
@@ -848,6 +872,100 @@ _lumbre() {
                     return 0
                     ;;
                 --sample)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --scene)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --variant)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --edits)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --asset-dir)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-file-bytes)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-json-bytes)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-json-objects)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-json-depth)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-buffer-bytes)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-image-side)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-image-bytes)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-total-image-bytes)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-triangles)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-vertices)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-zero-filled)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-instances)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-node-depth)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        lumbre__subcmd__view)
+            opts="-h --watch --size --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --size)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --device)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --threads)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

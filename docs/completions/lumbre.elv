@@ -23,6 +23,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand -V 'Print version'
             cand --version 'Print version'
             cand render 'Render a scene to a picture'
+            cand view 'Look at a scene in a window, walk through it and change it'
             cand info 'Say what a scene holds, what it takes, and why its picture might be black'
             cand compare 'Measure how much a picture differs from a reference'
             cand merge 'Add parts of one render, made apart, to the picture of one run'
@@ -95,6 +96,32 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand --keep-sums 'An .exr carries the exact sums of its samples (about 150 bytes a pixel before compression), so that `lumbre merge` can add more; --first-sample implies it'
             cand --validation 'Lets Vulkan''s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program'
             cand --stats 'At the end, say in a table what took how much time and memory; with --progress json as part of the last line'
+            cand -h 'Print help (see more with ''--help'')'
+            cand --help 'Print help (see more with ''--help'')'
+        }
+        &'lumbre;view'= {
+            cand --size 'Size of the window, in the points of the display. [default: 1280x800]'
+            cand --device 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them'
+            cand --threads 'Threads. [default: one for each processor]'
+            cand --scene 'Which of the file''s scenes: its name, or its number from 0. [default: the one that the file names, else the first]'
+            cand --variant 'Which of the file''s sets of materials, by name. [default: the materials that stand without one]'
+            cand --edits 'What was changed of the scene, as `lumbre view` writes it (docs/edits.md says what can stand there): camera, lights, materials, places of things, settings, look. Flags that are given stand above it'
+            cand --asset-dir 'Folder from which textures and other files that the scene names may be read too. May be given several times'
+            cand --max-file-bytes 'Bytes of one file, such as 4GiB. [default: 8GiB]'
+            cand --max-json-bytes 'Bytes of a scene''s JSON. [default: 256MiB]'
+            cand --max-json-objects 'Objects in a scene''s JSON, of all kinds together. [default: 4194304]'
+            cand --max-json-depth 'Lists and objects of a scene''s JSON inside one another, up to 127. [default: 64]'
+            cand --max-buffer-bytes 'Bytes of all buffers of a scene; also of all its encoded images. [default: 16GiB]'
+            cand --max-image-side 'Columns or rows of an image. [default: 32768]'
+            cand --max-image-bytes 'Bytes of one image once decoded. [default: 4GiB]'
+            cand --max-total-image-bytes 'Bytes of all images of a scene once decoded. [default: 16GiB]'
+            cand --max-triangles 'Triangles, each mesh counted once. [default: 500000000]'
+            cand --max-vertices 'Vertices, each mesh counted once. [default: 500000000]'
+            cand --max-zero-filled 'Elements of a glTF accessor that has no data of its own. [default: 1048576]'
+            cand --max-instances 'Meshes that the nodes place in the world. [default: 16777216]'
+            cand --max-node-depth 'Nodes beneath one another. [default: 1048576]'
+            cand --watch 'Opens the scene again when its file changes'
+            cand --validation 'Lets Vulkan''s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program'
             cand -h 'Print help (see more with ''--help'')'
             cand --help 'Print help (see more with ''--help'')'
         }
@@ -171,7 +198,8 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand --warm-up 'Frames before them; frames of the first 0.7 s do not count in any case'
             cand --budget 'Most time for the frames of one figure; one frame is always taken'
             cand --spp 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]'
-            cand --time 'Time for each device in `equal-time`'
+            cand --triangles 'Triangles of the grids of `build`, at least'
+            cand --time 'Time for each device in `equal-time`, and of the edits of `view`'
             cand --max-depth 'Most scattering events on a path. [default: 16]'
             cand --roulette 'First scattering event after which Russian roulette may end a path. [default: 4]'
             cand --sampler 'Random stream. [default: sobol]'
@@ -222,6 +250,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
         }
         &'lumbre;help'= {
             cand render 'Render a scene to a picture'
+            cand view 'Look at a scene in a window, walk through it and change it'
             cand info 'Say what a scene holds, what it takes, and why its picture might be black'
             cand compare 'Measure how much a picture differs from a reference'
             cand merge 'Add parts of one render, made apart, to the picture of one run'
@@ -232,6 +261,8 @@ set edit:completion:arg-completer[lumbre] = {|@words|
             cand help 'Print this message or the help of the given subcommand(s)'
         }
         &'lumbre;help;render'= {
+        }
+        &'lumbre;help;view'= {
         }
         &'lumbre;help;info'= {
         }

@@ -27,6 +27,7 @@ end
 complete -c lumbre -n "__fish_lumbre_needs_command" -s h -l help -d 'Print help'
 complete -c lumbre -n "__fish_lumbre_needs_command" -s V -l version -d 'Print version'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "render" -d 'Render a scene to a picture'
+complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "view" -d 'Look at a scene in a window, walk through it and change it'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "info" -d 'Say what a scene holds, what it takes, and why its picture might be black'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "compare" -d 'Measure how much a picture differs from a reference'
 complete -c lumbre -n "__fish_lumbre_needs_command" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
@@ -110,6 +111,29 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l keep-sums -d 'A
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l validation -d 'Lets Vulkan\'s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program'
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l stats -d 'At the end, say in a table what took how much time and memory; with --progress json as part of the last line'
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l size -d 'Size of the window, in the points of the display. [default: 1280x800]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l device -d 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l threads -d 'Threads. [default: one for each processor]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l scene -d 'Which of the file\'s scenes: its name, or its number from 0. [default: the one that the file names, else the first]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l variant -d 'Which of the file\'s sets of materials, by name. [default: the materials that stand without one]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l edits -d 'What was changed of the scene, as `lumbre view` writes it (docs/edits.md says what can stand there): camera, lights, materials, places of things, settings, look. Flags that are given stand above it' -r -F
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l asset-dir -d 'Folder from which textures and other files that the scene names may be read too. May be given several times' -r -F
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-file-bytes -d 'Bytes of one file, such as 4GiB. [default: 8GiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-json-bytes -d 'Bytes of a scene\'s JSON. [default: 256MiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-json-objects -d 'Objects in a scene\'s JSON, of all kinds together. [default: 4194304]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-json-depth -d 'Lists and objects of a scene\'s JSON inside one another, up to 127. [default: 64]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-buffer-bytes -d 'Bytes of all buffers of a scene; also of all its encoded images. [default: 16GiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-image-side -d 'Columns or rows of an image. [default: 32768]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-image-bytes -d 'Bytes of one image once decoded. [default: 4GiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-total-image-bytes -d 'Bytes of all images of a scene once decoded. [default: 16GiB]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-triangles -d 'Triangles, each mesh counted once. [default: 500000000]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-vertices -d 'Vertices, each mesh counted once. [default: 500000000]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-zero-filled -d 'Elements of a glTF accessor that has no data of its own. [default: 1048576]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-instances -d 'Meshes that the nodes place in the world. [default: 16777216]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l max-node-depth -d 'Nodes beneath one another. [default: 1048576]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l watch -d 'Opens the scene again when its file changes'
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l validation -d 'Lets Vulkan\'s validation layer, where it is installed, look over every call of a GPU: slow, for those who change this program'
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l size -d 'Size of the picture whose memory is predicted' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l scene -d 'Which of the file\'s scenes: its name, or its number from 0. [default: the one that the file names, else the first]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand info" -l variant -d 'Which of the file\'s sets of materials, by name. [default: the materials that stand without one]' -r
@@ -169,7 +193,8 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l frames -d 'Frame
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l warm-up -d 'Frames before them; frames of the first 0.7 s do not count in any case' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l budget -d 'Most time for the frames of one figure; one frame is always taken' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l spp -d 'Samples per pixel of `still` and of the noise of `hemisphere`. [default: 1000, 64]' -r
-complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l time -d 'Time for each device in `equal-time`' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l triangles -d 'Triangles of the grids of `build`, at least' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l time -d 'Time for each device in `equal-time`, and of the edits of `view`' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-depth -d 'Most scattering events on a path. [default: 16]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l roulette -d 'First scattering event after which Russian roulette may end a path. [default: 4]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sampler -d 'Random stream. [default: sobol]' -r -f -a "sobol\t'Owen-scrambled Sobol points: converges faster'
@@ -219,12 +244,13 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l validation -d 'L
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c lumbre -n "__fish_lumbre_using_subcommand completions" -s h -l help -d 'Print help'
 complete -c lumbre -n "__fish_lumbre_using_subcommand man" -s h -l help -d 'Print help'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "render" -d 'Render a scene to a picture'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "info" -d 'Say what a scene holds, what it takes, and why its picture might be black'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "compare" -d 'Measure how much a picture differs from a reference'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "devices" -d 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "bench" -d 'Measure frames per second, rays per second and their like, as tables'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "man" -d 'Print the manual page, or write one for each command'
-complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render info compare merge devices bench completions man help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "render" -d 'Render a scene to a picture'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "view" -d 'Look at a scene in a window, walk through it and change it'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "info" -d 'Say what a scene holds, what it takes, and why its picture might be black'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "compare" -d 'Measure how much a picture differs from a reference'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "merge" -d 'Add parts of one render, made apart, to the picture of one run'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "devices" -d 'List what can render here: the CPU, and every GPU that Vulkan finds, with what it lacks'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "bench" -d 'Measure frames per second, rays per second and their like, as tables'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "completions" -d 'Print what makes a shell complete the flags of this program'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "man" -d 'Print the manual page, or write one for each command'
+complete -c lumbre -n "__fish_lumbre_using_subcommand help; and not __fish_seen_subcommand_from render view info compare merge devices bench completions man help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
