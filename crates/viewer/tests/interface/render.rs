@@ -104,7 +104,8 @@ fn the_view_is_to_the_bit_what_its_edits_render() {
         let now = app.state.wanted().unwrap();
         let same =
             |w: &Wanted| w.camera == now.camera && Arc::ptr_eq(&w.scene, &now.scene) && w.look == now.look;
-        let whole = |(w, f): &(Wanted, Frame)| f.stats.scale == 1 && f.stats.spp == SAMPLES && same(w);
+        let finished = |f: &Frame| (f.stats.scale, f.stats.spp, f.stats.exposure_ev) == (1, SAMPLES, -0.5);
+        let whole = |(w, f): &(Wanted, Frame)| finished(f) && same(w);
         last.as_ref().is_some_and(whole) && !app.state.is_moving()
     };
     ui.run_steps(2);
