@@ -327,7 +327,7 @@ impl App {
     /// Asks what stands where the mouse clicked.
     fn ask(&mut self) {
         if let Some(session) = &self.session
-            && let Some(at) = self.state.picks.next()
+            && let Some(at) = self.state.picks.to_ask()
         {
             session.pick(at);
         }

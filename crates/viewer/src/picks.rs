@@ -38,7 +38,7 @@ impl Picks {
     }
 
     /// The next question to be asked, if the last one was answered.
-    pub fn next(&mut self) -> Option<[f32; 2]> {
+    pub fn to_ask(&mut self) -> Option<[f32; 2]> {
         if self.asked.is_some() {
             return None;
         }
@@ -67,12 +67,12 @@ mod tests {
         let mut picks = Picks::default();
         picks.ask([0.1, 0.1], Why::Select);
         picks.ask([0.2, 0.2], Why::Frame);
-        assert_eq!(picks.next(), Some([0.1, 0.1]));
-        assert_eq!(picks.next(), None, "the first has no answer yet");
+        assert_eq!(picks.to_ask(), Some([0.1, 0.1]));
+        assert_eq!(picks.to_ask(), None, "the first has no answer yet");
         assert_eq!(picks.answered(), Some(Why::Select));
-        assert_eq!(picks.next(), Some([0.2, 0.2]));
+        assert_eq!(picks.to_ask(), Some([0.2, 0.2]));
         assert_eq!(picks.answered(), Some(Why::Frame));
-        assert_eq!((picks.next(), picks.answered()), (None, None));
+        assert_eq!((picks.to_ask(), picks.answered()), (None, None));
     }
 
     #[test]
@@ -81,8 +81,8 @@ mod tests {
         for i in 0..100 {
             picks.ask([i as f32, 0.5], Why::AutoFocus);
         }
-        assert_eq!(picks.next(), Some([99.0, 0.5]));
+        assert_eq!(picks.to_ask(), Some([99.0, 0.5]));
         picks.answered();
-        assert_eq!(picks.next(), None);
+        assert_eq!(picks.to_ask(), None);
     }
 }

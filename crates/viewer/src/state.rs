@@ -495,7 +495,10 @@ static EMPTY: LazyLock<CompiledScene> =
 
 /// The camera that was found last, and for what: finding one looks through the whole scene, and panels ask for it many times a frame.
 #[derive(Default)]
-struct Found(RefCell<Option<(Arc<Scene>, Changes, f32, Camera)>>);
+struct Found(RefCell<Option<FoundFor>>);
+
+/// A camera, and the scene, the changes and the aspect that it was found for.
+type FoundFor = (Arc<Scene>, Changes, f32, Camera);
 
 impl Found {
     fn get(&self, document: &Document, aspect: f32) -> Camera {

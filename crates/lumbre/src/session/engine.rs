@@ -204,6 +204,8 @@ impl Engine {
 
     /// Frames of one scene on one device.
     fn frames(&mut self, backend: &dyn Backend, made: &Made) -> Option<Next> {
+        // It may have come with the scene or the device that began this.
+        self.show.look(self.wanted.look);
         let run = backend.canvas().and_then(|canvas| Run::new(backend, canvas, self));
         let mut run = match run {
             Ok(run) => run,

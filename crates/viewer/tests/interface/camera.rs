@@ -110,7 +110,7 @@ fn bookmarks_come_back_to_a_view() {
 }
 
 #[test]
-fn a_double_click_brings_what_it_meets_into_view() {
+fn a_double_click_brings_what_it_meets_scrolled_to() {
     let mut window = Window::with("cornell.glb");
     let before = window.fake.wanted().camera;
     let place = window.at(0.4, 0.6);

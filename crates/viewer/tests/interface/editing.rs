@@ -36,7 +36,7 @@ fn a_drag_of_a_slider_is_one_step() {
     window.state_mut().selection.material = Some(MaterialId(0));
     window.unfold("Material");
     let before = roughness(&window);
-    let slider = window.into_view("Roughness");
+    let slider = window.scrolled_to("Roughness");
     // To the left: it stands at its most.
     let (from, to) = (slider.center(), slider.center() - eframe::egui::vec2(60.0, 0.0));
     let mut passed = 0;

@@ -233,7 +233,7 @@ impl Window {
     }
 
     /// Scrolls to the field of a row.
-    pub(crate) fn into_view(&mut self, name: &str) -> Rect {
+    pub(crate) fn scrolled_to(&mut self, name: &str) -> Rect {
         let field = |w: &Self| w.ui.get_all_by_label(name).find(|n| n.value().is_some()).map(|n| n.rect());
         self.ui
             .get_all_by_label(name)
@@ -246,7 +246,7 @@ impl Window {
 
     /// Sets a number by the name of its row.
     pub(crate) fn set_number(&mut self, name: &str, value: f64) {
-        self.into_view(name);
+        self.scrolled_to(name);
         let field =
             self.ui.get_all_by_label(name).find(|n| n.value().is_some()).expect("a field of this name");
         field.set_value_accesskit(value);
