@@ -16,6 +16,8 @@ const ALLOWED: &[&str] = &[
     "ISC",
     "MIT",
     "MIT-0",
+    "OFL-1.1",         // the letters of the window: free in programs, under their own name
+    "Ubuntu-font-1.0", // likewise
     "Unicode-3.0",
     "Unlicense",
     "Zlib",

@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn an_overview_is_the_librarys() {
+    fn an_overview_is_that_of_the_library() {
         let mut scene = lumbre::scene::Scene::default();
         let positions = vec![BOX.min, BOX.max, Vec3::new(BOX.min.x, BOX.max.y, BOX.min.z)];
         let primitive = lumbre::scene::Primitive {
