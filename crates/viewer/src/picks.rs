@@ -14,6 +14,8 @@ pub enum Why {
     Focus,
     /// To focus on the centre, which has changed.
     AutoFocus,
+    /// To turn about what stands in the centre.
+    Pivot,
 }
 
 /// The questions.
@@ -27,10 +29,10 @@ pub struct Picks {
 const MOST: usize = 8;
 
 impl Picks {
-    /// Puts a question. Of automatic focus the last one is enough.
+    /// Puts a question. Of those about the centre the last one is enough.
     pub fn ask(&mut self, at: [f32; 2], why: Why) {
-        if why == Why::AutoFocus {
-            self.waiting.retain(|(_, other)| *other != Why::AutoFocus);
+        if matches!(why, Why::AutoFocus | Why::Pivot) {
+            self.waiting.retain(|(_, other)| *other != why);
         }
         if self.waiting.len() < MOST {
             self.waiting.push_back((at, why));

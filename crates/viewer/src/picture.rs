@@ -90,6 +90,9 @@ impl Picture {
             && let Some(at) = ui.input(|i| i.pointer.press_origin())
         {
             self.drag = take_arrow(state, pose, rect, inside(at));
+            if self.drag.is_none() {
+                state.picks.ask([0.5; 2], crate::picks::Why::Pivot);
+            }
         }
         state.held = response.dragged();
         if response.drag_stopped() {

@@ -275,6 +275,16 @@ impl State {
         Some(Pose { camera, reach: reach.max(1e-6) })
     }
 
+    /// Looks at something nearer or farther in the same direction. While nothing moves this must not touch the edits: the same camera from
+    /// another target has other last digits.
+    fn look_at(&mut self, pose: Pose) {
+        if self.held {
+            self.set_pose(pose);
+        } else {
+            self.reach = pose.reach;
+        }
+    }
+
     /// Moves the camera.
     pub fn set_pose(&mut self, pose: Pose) {
         let Some(before) = self.pose() else { return };
@@ -379,6 +389,7 @@ impl State {
             Event::Prepared { device, seconds } => {
                 self.preparing = None;
                 self.before = None;
+                self.picks.ask([0.5; 2], Why::Pivot);
                 if std::mem::take(&mut self.announce) {
                     self.log.note(format!("on {device} in {seconds:.2} s"));
                 }
@@ -411,6 +422,11 @@ impl State {
             found.map(|p| (p.point - pose.camera.origin).dot(pose.camera.forward)).filter(|d| *d > 0.0);
         match (why, found) {
             (Why::AutoFocus, _) => self.auto_focus = along.or(Some(FAR)),
+            (Why::Pivot, _) => {
+                if let Some(reach) = along {
+                    self.look_at(Pose { reach, ..pose });
+                }
+            }
             (Why::Focus, _) => {
                 if let Some(along) = along {
                     self.set(Item::Camera, "focus", Value::Number(along));

@@ -162,6 +162,7 @@ impl Engine {
                     prepared.note.into_iter().for_each(|note| self.sink.event(Event::Notice(note)));
                     self.pace = Pace::new(device != Device::Cpu);
                     let device = prepared.backend.device();
+                    *self.shared.drawn() = Some(made.compiled.clone());
                     let seconds = began.elapsed().as_secs_f64();
                     self.sink.event(Event::Prepared { device, seconds });
                     return Some(prepared.backend);
