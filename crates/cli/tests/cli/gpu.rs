@@ -49,10 +49,8 @@ fn the_gpu_draws_what_the_cpu_draws() {
     }
     let dir = folder();
     let run = draw(dir.path(), "gpu.exr", "--device gpu --spp 64 --stats --validation", &[]).exits(0);
-    let run = run
-        .says("(as --device asks)")
-        .says("GPU ms of `trace + shade`")
-        .does_not_say("warning: validation:");
+    let run =
+        run.says("(as --device asks)").says("GPU ms of `trace + shade`").does_not_say("warning: validation:");
     assert!(!run.stderr.contains("device: CPU ("), "{}", run.stderr);
     draw(dir.path(), "cpu.exr", "--device cpu --spp 64", &[]).exits(0).does_not_say("GPU ms");
     assert_eq!(samples(dir.path(), "gpu.exr"), 64.0);
