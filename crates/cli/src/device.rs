@@ -3,7 +3,7 @@
 use crate::console;
 use crate::exit::{Code, Failure};
 use crate::flags::device::DeviceArgs;
-use lumbre::rayon::{ThreadPool, ThreadPoolBuilder};
+use lumbre::rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use lumbre::scene::CompiledScene;
 use lumbre::{Backend, OpenDevice};
 
@@ -39,9 +39,21 @@ pub(crate) fn said(backend: &dyn Backend, why: &str) {
 
 /// The threads that work.
 pub(crate) fn pool(args: &DeviceArgs) -> Result<ThreadPool, Failure> {
-    let threads = args.threads.map_or(0, usize::from); // 0: rayon counts the processors
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|e| Failure::new(Code::Memory, format!("cannot start the threads: {e}")))
+    threads(args).build().map_err(no_threads)
+}
+
+/// The same for all of the program: where others start the work.
+pub(crate) fn common_pool(args: &DeviceArgs) -> Result<(), Failure> {
+    threads(args).build_global().map_err(no_threads)
+}
+
+fn threads(args: &DeviceArgs) -> ThreadPoolBuilder {
+    // 0: rayon counts the processors.
+    ThreadPoolBuilder::new().num_threads(args.threads.map_or(0, usize::from))
+}
+
+fn no_threads(e: ThreadPoolBuildError) -> Failure {
+    Failure::new(Code::Memory, format!("cannot start the threads: {e}"))
 }
 
 /// Does a piece of work again on another device where the first one fails and there is another.

@@ -89,7 +89,16 @@ pub(crate) fn available() -> Option<u64> {
 
 /// The most that this process has held, bytes; `None` where the system does not say (as above).
 pub(crate) fn peak() -> Option<u64> {
-    fs::read_to_string("/proc/self/status").ok().and_then(|t| kilobytes(&t, "VmHWM:"))
+    of_process("VmHWM:")
+}
+
+/// What this process holds, bytes; `None` where the system does not say (as above).
+pub(crate) fn held() -> Option<u64> {
+    of_process("VmRSS:")
+}
+
+fn of_process(name: &str) -> Option<u64> {
+    fs::read_to_string("/proc/self/status").ok().and_then(|t| kilobytes(&t, name))
 }
 
 /// A line of Linux's /proc/meminfo and its kin, bytes.

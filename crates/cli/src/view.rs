@@ -1,10 +1,10 @@
 //! `lumbre view`: the interactive window.
 
+use crate::device;
 use crate::exit::{Code, Failure};
 use crate::flags::values::Size;
 use crate::flags::view::ViewArgs;
 use lumbre::edits::Edits;
-use lumbre::rayon::ThreadPoolBuilder;
 use lumbre_viewer::{Options, ViewError};
 use std::path::Path;
 
@@ -18,10 +18,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Code, Failure> {
         }
         Edits::read(edits)?;
     }
-    if let Some(threads) = args.device.threads {
-        let pool = ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-        pool.map_err(|e| Failure::new(Code::Memory, format!("cannot start the threads: {e}")))?;
-    }
+    device::common_pool(&args.device)?;
     lumbre_viewer::run(Options {
         scene: args.scene.clone(),
         load: args.loading.options(),

@@ -15,6 +15,7 @@ pub mod fresnel;
 pub mod hash;
 pub mod light;
 pub mod math;
+pub mod measure;
 pub mod medium;
 pub mod microfacet;
 pub mod mis;

@@ -6,8 +6,10 @@ use std::time::{Duration, Instant};
 
 /// Frame times that the plot shows.
 pub const PLOTTED: usize = 180;
-/// Over how long rates are taken.
+/// Over how long rates are taken, unless that is less than [`FRAMES`].
 const WINDOW: Duration = Duration::from_secs(2);
+/// Frames that a rate needs.
+const FRAMES: f64 = 3.0;
 /// Longest that a step of the interface may take.
 pub const LIMIT: Duration = Duration::from_millis(50);
 
@@ -74,7 +76,9 @@ impl Meter {
 
     /// Forgets what is too old to count.
     pub fn tick(&mut self, now: Instant) {
-        let old = |at: Instant| now.saturating_duration_since(at) > WINDOW;
+        let slow = self.made.back().map_or(0.0, |m| FRAMES * m.seconds);
+        let window = WINDOW.max(Duration::try_from_secs_f64(slow).unwrap_or(Duration::MAX));
+        let old = |at: Instant| now.saturating_duration_since(at) > window;
         while self.made.front().is_some_and(|m| old(m.at)) {
             self.made.pop_front();
         }
@@ -167,6 +171,19 @@ mod tests {
         let later = at(100);
         meter.tick(later);
         assert_eq!((meter.rendered_fps(later), meter.mean_ms()), (0.0, 0.0));
+    }
+
+    #[test]
+    fn slow_frames_have_a_rate() {
+        let (mut meter, began) = (Meter::default(), Instant::now());
+        let at = |s: u64| began + Duration::from_secs(s);
+        for i in 1..=4 {
+            meter.made(&stats(1, 5.0), at(5 * i));
+            meter.tick(at(5 * i + 4));
+        }
+        assert!((meter.rendered_fps(at(20)) - 0.2).abs() < 1e-9);
+        meter.tick(at(60));
+        assert_eq!(meter.rendered_fps(at(60)), 0.0);
     }
 
     #[test]

@@ -33,7 +33,6 @@ mod tests;
 mod timer;
 mod upload;
 
-pub use accel::AccelReport;
 pub use adapters::{Adapter, Kind, Wanted, adapters};
 pub use buffer::{Buffer, Purpose};
 pub use cache::PipelineCache;
@@ -45,7 +44,7 @@ pub use instance::Validation;
 pub use kernel::Kernel;
 pub use lumbre_shaders::post::PostLook;
 pub use memory::MemoryUse;
-pub use path::{Canvas, Frames, OwnRays, PassTime, RayBatch, Replayed, VulkanBackend};
+pub use path::{Canvas, OwnRays, RayBatch, VulkanBackend};
 pub use post::Post;
 pub use ray_pipeline::{HitShaders, RayPipeline, RayShaders};
 pub use replay::Replay;

@@ -151,7 +151,7 @@ mod tests {
             seconds: vec![0.01, 0.02, 0.09],
             progress: Progress { samples: 100, rays: 600 },
             path_rays: Some(250),
-            passes: vec![PassTime { name: "trace".into(), count: 6, total_ms: 90.0 }],
+            passes: vec![PassTime { name: "trace", count: 6, total_ms: 90.0 }],
         };
         let f = Figures::of(&frames);
         assert_eq!((f.frames, f.path_length, f.passes.clone()), (3, Some(2.5), vec![("trace".into(), 30.0)]));

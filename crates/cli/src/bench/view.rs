@@ -6,12 +6,13 @@ use super::settings;
 use super::sweep::HD;
 use super::table::{Cell, Column, Table};
 use crate::console;
+use crate::device;
 use crate::exit::{Code, Failure};
 use crate::flags::bench::BenchArgs;
+use crate::memory;
 use lumbre::GpuOptions;
 use lumbre::scene::Scene;
-use lumbre::session::{Event, Frame, FrameSink, Layer, Session, ViewLook, Wanted};
-use std::fs;
+use lumbre::session::{Event, Frame, FrameSink, FrameStats, Layer, Session, ViewLook, Wanted};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -44,13 +45,13 @@ const PATIENCE: Duration = Duration::from_secs(120);
 struct Clock(Mutex<Sender<Sent>>);
 
 enum Sent {
-    Frame { at: Instant, number: u64, scale: u32 },
+    Frame { at: Instant, number: u64, stats: FrameStats },
     Failed(String),
 }
 
 impl FrameSink for Clock {
     fn frame(&self, frame: Frame) {
-        let sent = Sent::Frame { at: Instant::now(), number: frame.number, scale: frame.stats.scale };
+        let sent = Sent::Frame { at: Instant::now(), number: frame.number, stats: frame.stats };
         // Nobody listens any more at the very end.
         let _ = self.0.lock().unwrap_or_else(PoisonError::into_inner).send(sent);
     }
@@ -80,6 +81,7 @@ struct Answers {
     seconds: f64,
     gap_ms: f64,
     growth: Option<f64>,
+    device: String,
 }
 
 /// A session under measurement.
@@ -96,10 +98,10 @@ impl Watched {
         Watched { session, sent, wanted }
     }
 
-    /// The next frame: when, which, how rough.
-    fn frame(&self, patience: Duration) -> Result<Option<(Instant, u64, u32)>, Failure> {
+    /// The next frame: when, which, how it was made.
+    fn frame(&self, patience: Duration) -> Result<Option<(Instant, u64, FrameStats)>, Failure> {
         match self.sent.recv_timeout(patience) {
-            Ok(Sent::Frame { at, number, scale }) => Ok(Some((at, number, scale))),
+            Ok(Sent::Frame { at, number, stats }) => Ok(Some((at, number, stats))),
             Ok(Sent::Failed(why)) => Err(Failure::new(Code::Unavailable, why)),
             Err(_) => Ok(None),
         }
@@ -112,7 +114,7 @@ impl Watched {
         let mut stale = 0;
         loop {
             let frame = self.frame(PATIENCE)?;
-            let Some((at, shows, scale)) = frame else {
+            let Some((at, shows, stats)) = frame else {
                 let message = format!("no frame came within {} s", PATIENCE.as_secs());
                 return Err(Failure::new(Code::Unavailable, message));
             };
@@ -122,7 +124,8 @@ impl Watched {
             answers.frames += 1;
             if shows >= number {
                 answers.ms.push(1e3 * (at - asked).as_secs_f64());
-                answers.scale = answers.scale.max(scale);
+                answers.scale = answers.scale.max(stats.scale);
+                answers.device = stats.device;
                 answers.stale = answers.stale.max(stale);
                 return Ok(());
             }
@@ -166,7 +169,7 @@ fn edits(watched: &mut Watched, time: Duration) -> Result<Answers, Failure> {
     // What the first edit does once does not count.
     watched.wanted.scene = Arc::new(edited(&watched.wanted.scene, 0));
     watched.answer(&mut Answers::default())?;
-    let (began, held) = (Instant::now(), held());
+    let (began, held) = (Instant::now(), memory::held());
     let mut last = began;
     let count = (time.as_secs_f64() * f64::from(EDITS)).ceil() as u32;
     for i in 0..count {
@@ -179,7 +182,7 @@ fn edits(watched: &mut Watched, time: Duration) -> Result<Answers, Failure> {
     }
     answers.seconds = began.elapsed().as_secs_f64();
     answers.growth =
-        self::held().zip(held).map(|(now, before)| (now as f64 - before as f64) / f64::from(1 << 20));
+        memory::held().zip(held).map(|(now, before)| (now as f64 - before as f64) / f64::from(1 << 20));
     Ok(answers)
 }
 
@@ -194,34 +197,30 @@ fn edited(scene: &Scene, step: u32) -> Scene {
     scene
 }
 
-/// Bytes that the process holds; `None` where the system does not say.
-fn held() -> Option<u64> {
-    let text = fs::read_to_string("/proc/self/statm").ok()?;
-    let pages: u64 = text.split_whitespace().nth(1)?.parse().ok()?;
-    Some(pages * 4096)
-}
-
 pub(super) fn table(args: &BenchArgs) -> Result<Table, Failure> {
+    device::common_pool(&args.device)?;
     let sizes = args.sizes.as_ref().map_or(vec![HD], |sizes| sizes.iter().map(|s| s.0).collect());
-    let (mut rows, device) = (Vec::new(), args.device.device.clone());
+    let (mut rows, mut device) = (Vec::new(), String::new());
     for path in scenes(args)? {
         let place = Place::open(&path, args)?;
         for eye in place.eyes() {
             for &size in &sizes {
-                rows.extend(measured(args, &place, &eye, size)?);
+                let (both, drawn_by) = measured(args, &place, &eye, size)?;
+                rows.extend(both);
+                device = drawn_by;
             }
         }
     }
-    Ok(Table { columns: COLUMNS.into(), rows, settings: settings(args, &device.to_string()) })
+    Ok(Table { columns: COLUMNS.into(), rows, settings: settings(args, &device) })
 }
 
-/// The rows of one view.
+/// The rows of one view, and what drew it.
 fn measured(
     args: &BenchArgs,
     place: &Place,
     eye: &Eye<'_>,
     size: [u32; 2],
-) -> Result<[Vec<Cell>; 2], Failure> {
+) -> Result<([Vec<Cell>; 2], String), Failure> {
     let view = eye.view(size, args.settings())?;
     let wanted = Wanted {
         scene: Arc::new(eye.scene().clone()),
@@ -243,6 +242,7 @@ fn measured(
     watched.watch(Instant::now() + Duration::from_secs(1), &mut Instant::now(), &mut Answers::default())?;
     let moved = moves(&mut watched)?;
     let edited = edits(&mut watched, args.time)?;
+    let device = edited.device.clone();
     let row = |event: &str, a: Answers| {
         let mut ms = a.ms;
         ms.sort_by(f64::total_cmp);
@@ -262,5 +262,5 @@ fn measured(
             a.growth.into(),
         ]
     };
-    Ok([row("camera moved", moved), row("material edited", edited)])
+    Ok(([row("camera moved", moved), row("material edited", edited)], device))
 }

@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn columns_are_aligned() {
         let memory = Memory { scene: 5 << 20, acceleration: 1 << 30, film: 1000, peak: None };
-        let trace = PassTime { name: "trace".into(), count: 8, total_ms: 10.0 };
+        let trace = PassTime { name: "trace", count: 8, total_ms: 10.0 };
         let stats = Stats { memory, passes: vec![trace] };
         let table = stats.table(&finished());
         assert!(table.iter().all(|l| l.len() == table[0].len()), "{table:#?}");

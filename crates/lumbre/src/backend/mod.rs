@@ -15,8 +15,8 @@ mod vulkan;
 pub use canvas::{Canvas, Developed};
 pub use device::{Device, DeviceError, GpuChoice};
 pub use fallback::Fallback;
-pub use frames::{AccelReport, Frames, PassTime, Replayed};
 pub use list::{DeviceInfo, DeviceKind, Devices, devices};
+pub use lumbre_core::measure::{AccelReport, Frames, PassTime, Replayed};
 pub use open::{GpuOptions, OpenDevice};
 
 use lumbre_core::Film;

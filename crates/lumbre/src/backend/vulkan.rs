@@ -111,22 +111,11 @@ impl Backend for VulkanBackend {
     }
 
     fn pass_times(&self) -> Vec<PassTime> {
-        VulkanBackend::pass_times(self).into_iter().map(pass_time).collect()
+        VulkanBackend::pass_times(self)
     }
 
     fn accel(&self) -> Option<AccelReport> {
-        let r = VulkanBackend::accel(self);
-        Some(AccelReport {
-            structures: r.structures,
-            triangles: r.triangles,
-            instances: r.instances,
-            bytes_built: r.bytes_built,
-            bytes: r.bytes,
-            top_bytes: r.top_bytes,
-            build_ms: r.build_ms,
-            compact_ms: r.compact_ms,
-            top_build_ms: r.top_build_ms,
-        })
+        Some(*VulkanBackend::accel(self))
     }
 
     fn complaints(&self) -> Option<Vec<String>> {
@@ -134,13 +123,7 @@ impl Backend for VulkanBackend {
     }
 
     fn frames(&self, view: &View, size: [u32; 2], spp: u32, count: u32) -> Result<Frames, RenderError> {
-        let frames = VulkanBackend::frames(self, view, size, spp, count).map_err(|e| failed(self, &e))?;
-        Ok(Frames {
-            seconds: frames.seconds,
-            progress: frames.progress,
-            path_rays: frames.path_rays,
-            passes: frames.passes.into_iter().map(pass_time).collect(),
-        })
+        VulkanBackend::frames(self, view, size, spp, count).map_err(|e| failed(self, &e))
     }
 
     fn canvas(&self) -> Result<Box<dyn Canvas + '_>, RenderError> {
@@ -149,15 +132,7 @@ impl Backend for VulkanBackend {
     }
 
     fn replayed(&self, view: &View, size: [u32; 2], runs: u32) -> Result<Option<Replayed>, RenderError> {
-        let r = VulkanBackend::replayed(self, view, size, runs).map_err(|e| failed(self, &e))?;
-        Ok(Some(Replayed {
-            path_rays: r.path_rays,
-            shadow_rays: r.shadow_rays,
-            left_out: r.left_out,
-            path_ms: r.path_ms,
-            shadow_ms: r.shadow_ms,
-            ms: r.ms,
-        }))
+        VulkanBackend::replayed(self, view, size, runs).map(Some).map_err(|e| failed(self, &e))
     }
 }
 
@@ -199,8 +174,4 @@ impl Canvas for OnGpu<'_> {
 
 fn failed(backend: &VulkanBackend, error: &VulkanError) -> RenderError {
     RenderError { device: Backend::device(backend), reason: error.to_string() }
-}
-
-fn pass_time(t: lumbre_vulkan::PassTime) -> PassTime {
-    PassTime { name: t.name.into(), count: t.count, total_ms: t.total_ms }
 }

@@ -1,7 +1,7 @@
 //! The thread of a session: what is wanted becomes frames.
 
 use super::pace::{Pace, finer, scaled};
-use super::show::{Shot, Show, is_automatic, offset};
+use super::show::{STEP, Shot, Show, arrived, offset, share};
 use super::sink::{Event, Frame, FrameSink, FrameStats};
 use super::{Layer, Shared, Wanted, layers};
 use crate::backend::{Backend, Canvas, PassTime, RenderError};
@@ -9,7 +9,6 @@ use crate::estimate::Estimator;
 use crate::look::Negative;
 use crate::{Device, GpuOptions};
 use lumbre_core::Film;
-use lumbre_core::color::ease_share;
 use lumbre_core::control::Control;
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_scene::{CompiledScene, Scene, SceneChanges, compile, recompile};
@@ -19,10 +18,6 @@ use std::time::{Duration, Instant};
 
 /// Samples from which an estimate of the error says anything.
 const LEAST_FOR_ERROR: u32 = 16;
-/// Between two frames of an exposure on its way while no samples come.
-const STEP: Duration = Duration::from_millis(33);
-/// An exposure that is this near, in EV, has arrived.
-const ARRIVED: f32 = 0.02;
 
 /// The thread: until the session ends.
 pub(super) fn run(shared: Arc<Shared>, gpu: GpuOptions, sink: Arc<dyn FrameSink>) {
@@ -365,7 +360,7 @@ impl<'a> Run<'a> {
         let since = |t: &PassTime| {
             let last = self.passes.iter().find(|l| l.name == t.name);
             let (count, ms) = last.map_or((0, 0.0), |l| (l.count, l.total_ms));
-            PassTime { name: t.name.clone(), count: t.count - count, total_ms: t.total_ms - ms }
+            PassTime { name: t.name, count: t.count - count, total_ms: t.total_ms - ms }
         };
         let passes = now.iter().map(since).filter(|t| t.count > 0).collect();
         self.passes = now;
@@ -407,15 +402,12 @@ impl<'a> Run<'a> {
 
     /// The picture as the device develops it, with the factor of its exposure.
     fn developed(&mut self, wanted: &Wanted) -> Result<Option<(Vec<u8>, f32)>, RenderError> {
-        let eased = wanted.look.eased && is_automatic(&wanted.look.look);
-        let share = match self.exposed {
-            Some((_, at)) if eased => ease_share(at.elapsed().as_secs_f32(), super::show::EYE),
-            _ => 1.0,
-        };
         let look = wanted.look;
+        let share = share(&look, self.exposed.map(|(_, at)| at));
         let Some(done) = self.canvas.develop(&look.look, offset(&look), share)? else { return Ok(None) };
         let last = self.exposed.replace((done.factor, Instant::now()));
-        self.easing = eased && last.is_some_and(|(f, _)| (done.factor / f).log2().abs() > ARRIVED * share);
+        // A step of this share of the way.
+        self.easing = last.is_some_and(|(f, _)| share < 1.0 && !arrived(done.factor / f, share));
         Ok(Some((done.rgba, done.factor)))
     }
 

@@ -2,9 +2,10 @@
 //! asked from here, and all threads are busy with samples. Ten million triangles take about a tenth of a second.
 
 use super::sink::Picked;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use lumbre_core::Camera;
 use lumbre_scene::compiled::geometry::InstanceRecord;
+use lumbre_scene::compiled::triangle::intersect;
 use lumbre_scene::{CompiledScene, MaterialId, NodeId};
 
 /// The nearest triangle on the ray through a place of the picture: `at` from its top left corner, 0 to 1 along each axis. Lenses count
@@ -40,26 +41,12 @@ fn closest(scene: &CompiledScene, instance: &InstanceRecord, origin: Vec3, dir: 
     let mesh = &scene.meshes[instance.mesh as usize];
     let to_object = scene.transforms[instance.first_transform as usize].object_to_world().inverse();
     // Not normalised: distances stay those of the world.
-    let (o, d) = (to_object.transform_point3(origin), to_object.transform_vector3(dir));
+    let o = DVec3::from(to_object.transform_point3(origin));
+    let d = DVec3::from(to_object.transform_vector3(dir));
     let triangles = &scene.triangles[mesh.first_triangle as usize..][..mesh.triangle_count as usize];
     let hit = |(i, t): (usize, &[u32; 3])| {
-        let p = t.map(|v| Vec3::from_array(scene.positions[v as usize]));
-        intersect(o, d, p).map(|t| (t, i as u32))
+        let corners = t.map(|v| Vec3::from_array(scene.positions[v as usize]).into());
+        intersect(corners, o, d).map(|(t, _)| (t as f32, i as u32))
     };
     triangles.iter().enumerate().filter_map(hit).min_by(|a, b| a.0.total_cmp(&b.0))
-}
-
-/// Möller and Trumbore 1997.
-fn intersect(origin: Vec3, dir: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f32> {
-    let (e1, e2) = (b - a, c - a);
-    let p = dir.cross(e2);
-    let det = e1.dot(p);
-    let inverse = 1.0 / det;
-    let s = origin - a;
-    let u = s.dot(p) * inverse;
-    let q = s.cross(e1);
-    let v = dir.dot(q) * inverse;
-    let t = e2.dot(q) * inverse;
-    // Also false where the determinant is 0.
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t.is_finite()).then_some(t)
 }

@@ -10,11 +10,11 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Time in which an eased exposure comes within 1/e of where it goes, seconds.
-pub(super) const EYE: f32 = 0.4;
+const EYE: f32 = 0.4;
 /// An exposure that is this near, in EV, has arrived.
 const ARRIVED: f32 = 0.02;
-/// Between two frames of an exposure on its way.
-const STEP: Duration = Duration::from_millis(33);
+/// Between two frames of an exposure on its way, while no samples come.
+pub(super) const STEP: Duration = Duration::from_millis(33);
 
 /// Samples to be developed.
 pub(super) struct Shot {
@@ -81,18 +81,21 @@ impl Drop for Show {
     }
 }
 
-/// The look that a display gets, and its exposure: `previous` is the factor of the last frame and the seconds since.
-pub(super) fn factor(look: &ViewLook, target: f32, previous: Option<(f32, f32)>) -> f32 {
-    match previous {
-        Some((last, seconds)) if look.eased && is_automatic(&look.look) => {
-            exposure_eased(last, target, ease_share(seconds, EYE))
-        }
-        _ => target,
+/// How much of the way to its target an exposure goes that was shown last at this time: all of it if it is not eased.
+pub(super) fn share(look: &ViewLook, last: Option<Instant>) -> f32 {
+    match last {
+        Some(at) if look.eased && is_automatic(&look.look) => ease_share(at.elapsed().as_secs_f32(), EYE),
+        _ => 1.0,
     }
 }
 
+/// Whether an exposure that this share of the way changed by a factor has arrived.
+pub(super) fn arrived(factor: f32, share: f32) -> bool {
+    factor.log2().abs() <= ARRIVED * share
+}
+
 /// Whether the exposure follows the picture.
-pub(super) fn is_automatic(look: &Look) -> bool {
+fn is_automatic(look: &Look) -> bool {
     !matches!(look.exposure, Exposure::Ev(_))
 }
 
@@ -107,11 +110,11 @@ fn develop(shared: &(Mutex<Slot>, Condvar), sink: &dyn FrameSink) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("develop {i}"));
     let pool = pool.build().expect("the system has room for threads");
     let mut last: Option<(f32, Instant)> = None;
-    let mut arrived = true;
+    let mut at_rest = true;
     loop {
         let mut slot = locked(&shared.0);
         while !slot.fresh && !slot.ended {
-            if arrived {
+            if at_rest {
                 slot = shared.1.wait(slot).unwrap_or_else(PoisonError::into_inner);
             } else {
                 slot = shared.1.wait_timeout(slot, STEP).unwrap_or_else(PoisonError::into_inner).0;
@@ -125,13 +128,16 @@ fn develop(shared: &(Mutex<Slot>, Condvar), sink: &dyn FrameSink) {
         let (look, shot) = (slot.look, slot.shot.clone());
         drop(slot);
         let Some(shot) = shot else {
-            arrived = true;
+            at_rest = true;
             continue;
         };
         let target = pool.install(|| shot.negative.exposure_factor(&look.look)) * offset(&look);
-        let factor = factor(&look, target, last.map(|(f, at)| (f, at.elapsed().as_secs_f32())));
+        let share = share(&look, last.map(|(_, at)| at));
+        let before = last.map_or(target, |(factor, _)| factor);
+        let eased = exposure_eased(before, target, share);
+        at_rest = arrived(target / eased, 1.0);
+        let factor = if at_rest { target } else { eased };
         last = Some((factor, Instant::now()));
-        arrived = (target / factor).log2().abs() < ARRIVED;
         let rgba = pool.install(|| shot.negative.develop(&look.look, factor, 4));
         let stats = FrameStats { exposure_ev: factor.log2(), ..shot.stats.clone() };
         sink.frame(Frame { size: shot.negative.size(), rgba, number: shot.number, stats });

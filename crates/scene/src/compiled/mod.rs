@@ -6,6 +6,7 @@ pub mod lights;
 pub mod material;
 pub mod surroundings;
 pub mod texture;
+pub mod triangle;
 
 use bytemuck::{bytes_of, cast_slice};
 use geometry::{InstanceRecord, MeshRecord, TransformKey, Vertex};

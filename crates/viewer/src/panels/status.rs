@@ -5,6 +5,15 @@ use crate::state::State;
 use eframe::egui::{Label, ProgressBar, RichText, Ui};
 use std::time::Instant;
 
+/// Frames a second, or seconds a frame where that says more.
+fn pace(fps: f64) -> String {
+    match fps {
+        1.0.. => format!("{fps:.1} fps"),
+        0.01.. => format!("{:.1} s per frame", 1.0 / fps),
+        _ => String::new(),
+    }
+}
+
 /// Shows the line.
 pub fn show(ui: &mut Ui, state: &State) {
     ui.horizontal(|ui| {
@@ -27,7 +36,7 @@ pub fn show(ui: &mut Ui, state: &State) {
             let doing = match (state.running.paused, stats.done) {
                 (true, _) => "paused".to_owned(),
                 (_, true) => "done".to_owned(),
-                _ => format!("{:.1} fps", state.meter.rendered_fps(Instant::now())),
+                _ => pace(state.meter.rendered_fps(Instant::now())),
             };
             ui.label(doing);
             ui.separator();

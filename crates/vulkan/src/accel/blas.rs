@@ -1,8 +1,8 @@
 //! Bottom-level acceleration structures: built in batches of bounded size, then compacted.
 
+use super::PartBuffers;
 use super::plan::{BlasPlan, Plan};
 use super::structure::{Structure, offsets, side_by_side};
-use super::{AccelReport, PartBuffers};
 use crate::buffer::{Buffer, Purpose};
 use crate::commands::Commands;
 use crate::error::VulkanError;
@@ -11,6 +11,7 @@ use crate::scene::geometry::Geometry;
 use crate::timer::{Queries, Timer};
 use crate::upload::Upload;
 use ash::vk;
+use lumbre_core::measure::AccelReport;
 use lumbre_scene::CompiledScene;
 use lumbre_shaders::layout::HitClass;
 

@@ -12,31 +12,9 @@ use crate::error::VulkanError;
 use crate::gpu::Gpu;
 use crate::scene::geometry::Geometry;
 use crate::upload::Upload;
+use lumbre_core::measure::AccelReport;
 use lumbre_scene::{CompiledScene, SceneChanges};
 use plan::{Part, Plan};
-
-/// What there is of acceleration structures and what making them took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AccelReport {
-    /// Bottom-level structures.
-    pub structures: usize,
-    /// Triangles in them.
-    pub triangles: u64,
-    /// Instances in the top level.
-    pub instances: usize,
-    /// Bytes of the bottom level as built.
-    pub bytes_built: u64,
-    /// Bytes of it after compaction.
-    pub bytes: u64,
-    /// Bytes of the top level.
-    pub top_bytes: u64,
-    /// Time that the device took to build the bottom level, milliseconds.
-    pub build_ms: f64,
-    /// Time that it took to compact it.
-    pub compact_ms: f64,
-    /// Time that it took to build the top level.
-    pub top_build_ms: f64,
-}
 
 /// The acceleration structures of a scene.
 pub(crate) struct Accel {

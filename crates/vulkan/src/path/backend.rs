@@ -5,7 +5,7 @@ mod edited;
 mod own_rays;
 
 pub use canvas::Canvas;
-pub use own_rays::{OwnRays, RayBatch, Replayed};
+pub use own_rays::{OwnRays, RayBatch};
 
 use super::code::Code;
 use super::film::FilmOnGpu;
@@ -14,12 +14,12 @@ use super::passes::{Extent, HeadsReadback, LEAST_PATHS, MOST_PATHS, Passes, Path
 use super::slices::{Pace, Slice, Slices};
 use super::variant::{Needs, SceneConstants};
 use crate::{
-    AccelReport, Buffer, Gpu, Pending, PipelineCache, SceneOnGpu, SceneOptions, Specialisation, Timer,
-    Upload, VulkanError,
+    Buffer, Gpu, Pending, PipelineCache, SceneOnGpu, SceneOptions, Specialisation, Timer, Upload, VulkanError,
 };
 use glam::Vec3;
 use lumbre_core::control::{Control, Progress};
 use lumbre_core::film::{Crop, Film};
+use lumbre_core::measure::{AccelReport, Frames, PassTime};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_scene::CompiledScene;
@@ -89,30 +89,6 @@ impl Work {
             times: Vec::new(),
         }
     }
-}
-
-/// Time that the GPU spent on one of its passes, by its own clock.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PassTime {
-    /// Which pass.
-    pub name: &'static str,
-    /// How often it ran.
-    pub count: u64,
-    /// Milliseconds in all.
-    pub total_ms: f64,
-}
-
-/// What [`VulkanBackend::frames`] took.
-#[derive(Clone, Debug, Default)]
-pub struct Frames {
-    /// Seconds of each frame, from the end of the one before.
-    pub seconds: Vec<f64>,
-    /// Camera samples and rays in all.
-    pub progress: Progress,
-    /// Rays of paths among them, where they were counted apart: the others went to lights.
-    pub path_rays: Option<u64>,
-    /// Time of the GPU, pass by pass.
-    pub passes: Vec<PassTime>,
 }
 
 /// A film on the device: the part of the picture that it holds, and where its sums and its list of samples that were not finite lie.

@@ -8,4 +8,4 @@ mod passes;
 mod slices;
 mod variant;
 
-pub use backend::{Canvas, Frames, OwnRays, PassTime, RayBatch, Replayed, VulkanBackend};
+pub use backend::{Canvas, OwnRays, RayBatch, VulkanBackend};

@@ -170,17 +170,31 @@ enum Phase {
     Gather,
 }
 
+/// `a + b` for each of some words and each of the same words again.
+macro_rules! pairs {
+    ($($a:literal)*; $all:tt) => { [$(pairs!(@ $a $all)),*] };
+    (@ $a:literal [$($b:literal)*]) => { [$(concat!($a, " + ", $b)),*] };
+}
+
+/// Names of phases that run alone, with what runs beside them in the same half.
+const ALONE: [&str; 7] =
+    ["generate", "trace + shadow", "shade + glass", "catch", "last shadow", "last glass", "gather"];
+/// Names of phases of both halves that run at once.
+const TOGETHER: [[&str; 7]; 7] = pairs!(
+    "generate" "trace" "shade" "catch" "shadow" "glass" "gather";
+    ["generate" "trace" "shade" "catch" "shadow" "glass" "gather"]
+);
+
 impl Phase {
-    /// Its name, and that of what runs beside it.
-    fn name(self) -> &'static str {
+    fn index(self) -> usize {
         match self {
-            Phase::Generate => "generate",
-            Phase::Trace { .. } => "trace + shadow",
-            Phase::Shade { .. } => "shade + glass",
-            Phase::Catch => "catch",
-            Phase::Shadow => "last shadow",
-            Phase::Glass => "last glass",
-            Phase::Gather => "gather",
+            Phase::Generate => 0,
+            Phase::Trace { .. } => 1,
+            Phase::Shade { .. } => 2,
+            Phase::Catch => 3,
+            Phase::Shadow => 4,
+            Phase::Glass => 5,
+            Phase::Gather => 6,
         }
     }
 
@@ -191,10 +205,10 @@ impl Phase {
 
 /// What the time between two barriers is called.
 fn name(phases: &[Phase]) -> &'static str {
-    match phases {
-        [one] => one.name(),
-        [Phase::Trace { .. }, Phase::Shade { .. }] => "trace + shade",
-        _ => "mixed",
+    match phases.iter().map(|p| p.index()).collect::<Vec<_>>()[..] {
+        [one] => ALONE[one],
+        [a, b] => TOGETHER[a.min(b)][a.max(b)],
+        _ => "nothing",
     }
 }
 

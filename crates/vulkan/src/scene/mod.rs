@@ -4,7 +4,7 @@
 pub(crate) mod geometry;
 mod textures;
 
-use crate::accel::{Accel, AccelReport};
+use crate::accel::Accel;
 use crate::buffer::Buffer;
 use crate::descriptors::Descriptors;
 use crate::error::VulkanError;
@@ -12,6 +12,7 @@ use crate::gpu::Gpu;
 use crate::upload::Upload;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use geometry::Geometry;
+use lumbre_core::measure::AccelReport;
 use lumbre_scene::compiled::lights::LightGroup;
 use lumbre_scene::{CompiledScene, Part, SceneChanges};
 use lumbre_shaders::layout::SceneTable;

@@ -6,6 +6,7 @@ use crate::compute::ComputePipeline;
 use crate::path::slices::Slice;
 use crate::{Buffer, Commands, Purpose, Replay, Timer, VulkanError};
 use lumbre_core::film::Film;
+use lumbre_core::measure::Replayed;
 use lumbre_core::settings::View;
 use lumbre_shaders::replay::{self, CollectPush, ReplayHit, ReplayRay, collect, kind};
 use lumbre_shaders::view::{Push, QueueHeads, queue};
@@ -39,23 +40,6 @@ pub struct OwnRays {
     pub shadow_rays: u64,
     /// Shadow rays that were traced on from one surface that lets light through to the next. In `batches` they end at what stops light.
     pub through_glass: u64,
-}
-
-/// What a frame's own rays take by themselves; times are medians.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Replayed {
-    /// Rays of paths.
-    pub path_rays: u64,
-    /// Shadow rays.
-    pub shadow_rays: u64,
-    /// What is not replayed: shadow rays that follow light through glass (the way there is), and those of shadow catchers.
-    pub left_out: u64,
-    /// Milliseconds for those of paths, launch after launch.
-    pub path_ms: f64,
-    /// Milliseconds for shadow rays, launch after launch.
-    pub shadow_ms: f64,
-    /// Milliseconds for all as the path tracer launches them: shadow rays beside the next rays of their paths.
-    pub ms: f64,
 }
 
 /// Where rays of a list lie on the device and on the host.
