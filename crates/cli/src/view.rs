@@ -26,6 +26,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Code, Failure> {
         device: args.device.device.clone(),
         gpu: args.device.options(),
         watch: args.watch,
+        report: args.report.clone(),
         size: args.size.map(|Size(size)| size.map(|n| n as f32)),
     })?;
     Ok(Code::Done)
@@ -38,6 +39,7 @@ fn is_there(scene: &Path) -> Result<(), Failure> {
 
 impl From<ViewError> for Failure {
     fn from(e: ViewError) -> Self {
-        Self::new(Code::Unavailable, e)
+        let code = if let ViewError::NoReport { .. } = e { Code::CannotWrite } else { Code::Unavailable };
+        Self::new(code, e)
     }
 }

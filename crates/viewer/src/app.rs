@@ -9,6 +9,7 @@ use crate::input;
 use crate::open::Opened;
 use crate::panels;
 use crate::picture::{self, Picture};
+use crate::report::{Report, Step};
 use crate::sink::Sink;
 use crate::state::{REST, State};
 use eframe::egui::{self, CentralPanel, Context, Event as Input, Frame, Panel, Rect, Ui, ViewportCommand};
@@ -63,6 +64,11 @@ pub struct App {
     /// What it was told, with the number and the time, until a frame shows it.
     sent: VecDeque<(u64, Instant)>,
     devices: Option<Receiver<Vec<(String, Device)>>>,
+    report: Option<Report>,
+    /// The wish that the frame on the screen shows.
+    number: u64,
+    /// The last wish.
+    wish: u64,
     title: String,
     /// Whether this window waits for the display, and whether it is closed to be opened in the other way.
     vsync: bool,
@@ -81,15 +87,26 @@ impl App {
             told: None,
             sent: VecDeque::new(),
             devices: None,
+            report: None,
+            number: 0,
+            wish: 0,
             title: String::new(),
             vsync: true,
             reopens: false,
         }
     }
 
+    /// Writes down what it does from now on.
+    pub fn report(&mut self, report: Report) {
+        self.report = Some(report);
+    }
+
     /// Belongs to a window from now on.
     pub fn enter(&mut self, window: &Context) {
         crate::theme::set(window);
+        if let Some(report) = &self.report {
+            report.follow(window);
+        }
         self.sink.wake(window);
         self.state.loader.wake(window);
         // Those of the last window are gone with it.
@@ -127,6 +144,7 @@ impl App {
             self.picture.set(window, &frame);
             self.state.meter.shown(now);
             self.answered(frame.number, now);
+            self.number = frame.number;
             self.state.stats = frame.stats;
         }
         news.events.into_iter().for_each(|event| self.state.happened(event));
@@ -176,6 +194,7 @@ impl App {
             Opened::Edits { path, edits } => match &mut state.document {
                 Some(document) => {
                     document.replace_edits(*edits);
+                    document.mark_saved();
                     state.log.note(format!("{} opened", path.display()));
                     state.edits_file = Some(path);
                     state.stir();
@@ -185,8 +204,9 @@ impl App {
         }
     }
 
-    /// One step of the interface: shows everything, and does what was asked for.
-    pub fn show(&mut self, ui: &mut Ui) {
+    /// One step of the interface: shows everything, and does what was asked for. `last`: how long the step before took as a whole,
+    /// with what is beyond this program; `None` where nobody knows.
+    pub fn show(&mut self, ui: &mut Ui, last: Option<Duration>) {
         let began = Instant::now();
         let window = ui.ctx().clone();
         let mut commands = self.keys(&window);
@@ -198,15 +218,34 @@ impl App {
         commands.into_iter().for_each(|command| self.state.obey(command, &window));
         self.settle(&window);
         self.tell(&window);
+        if window.input(|i| i.viewport().close_requested()) && !self.reopens && !self.state.may_close() {
+            window.send_viewport_cmd(ViewportCommand::CancelClose);
+        }
         if self.state.running.vsync != self.vsync && !self.reopens {
             self.reopens = true;
             window.send_viewport_cmd(ViewportCommand::Close);
         }
-        self.state.meter.updated(began.elapsed());
+        let interface = began.elapsed();
+        self.state.meter.updated(last.unwrap_or(interface));
+        if let Some(report) = &self.report {
+            let stats = &self.state.stats;
+            let step = Step {
+                began: Some(began),
+                interface,
+                last: last.unwrap_or_default(),
+                spp: stats.spp,
+                scale: stats.scale,
+                number: self.number,
+                wish: self.wish,
+                device: stats.device.clone(),
+                log: Vec::new(),
+            };
+            report.step(step, &self.state.log);
+        }
     }
 
     fn keys(&self, window: &Context) -> Vec<Command> {
-        if self.state.dialog.is_some() || window.text_edit_focused() {
+        if self.state.dialog.is_some() || self.state.leaving.is_some() || window.text_edit_focused() {
             return Vec::new();
         }
         let pressed = window.input(|i| {
@@ -250,11 +289,12 @@ impl App {
         if state.shown.help {
             state.shown.help = panels::help(window);
         }
+        panels::leaving(window, state, commands);
         if let Some(mut dialog) = state.dialog.take() {
             match dialog.show(window, state.recent.paths()) {
                 None => state.dialog = Some(dialog),
                 Some(choice) => {
-                    let save = state.chosen(choice);
+                    let save = state.chosen(choice, window);
                     if let (Some(path), Some(session)) = (save, &self.session) {
                         session.save(path);
                     }
@@ -312,9 +352,13 @@ impl App {
             return self.ask();
         }
         match &self.session {
-            None => self.session = Some((self.start)(wanted.clone(), self.sink.clone())),
+            None => {
+                self.session = Some((self.start)(wanted.clone(), self.sink.clone()));
+                self.wish = 1;
+            }
             Some(session) => {
                 let number = session.set(wanted.clone());
+                self.wish = number;
                 if self.sent.len() < 1000 {
                     self.sent.push_back((number, Instant::now()));
                 }
@@ -359,8 +403,8 @@ impl eframe::App for App {
         }
     }
 
-    fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
-        self.show(ui);
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
+        self.show(ui, frame.info().cpu_usage.map(Duration::from_secs_f32));
     }
 
     fn clear_color(&self, _: &egui::Visuals) -> [f32; 4] {

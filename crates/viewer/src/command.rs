@@ -3,6 +3,7 @@
 
 use crate::dialog::{Choice, Purpose};
 use crate::input::Action;
+use crate::leaving::Leave;
 use crate::navigation;
 use crate::open::FileKind;
 use crate::panels::rows::Done;
@@ -56,6 +57,8 @@ pub enum Command {
     Signs(bool),
     /// Puts the last error away.
     PutAway,
+    /// Says what becomes of edits that are not saved.
+    Leave(Leave),
 }
 
 /// A third of a stop.
@@ -75,7 +78,8 @@ impl State {
                 self.announce |= running.device != self.running.device;
                 self.running = running;
             }
-            Command::Open(path) => self.loader.open(&path),
+            Command::Open(path) => self.open_file(path),
+            Command::Leave(how) => self.leave(how, window),
             Command::Ask(purpose) => self.ask_for_file(purpose, window),
             Command::FileCamera(index) => self.file_camera(index),
             Command::GoTo(index) => self.go_to(index),
@@ -156,6 +160,7 @@ impl State {
             }
             Action::Help => self.shown.help = !self.shown.help,
             Action::Panels => self.shown.bare = !self.shown.bare,
+            Action::Quit => window.send_viewport_cmd(ViewportCommand::Close),
             Action::FullScreen => {
                 self.full_screen = !self.full_screen;
                 window.send_viewport_cmd(ViewportCommand::Fullscreen(self.full_screen));
@@ -363,22 +368,23 @@ impl State {
     }
 
     /// What the file dialog ended with; a picture to save is the session's business.
-    pub fn chosen(&mut self, choice: Choice) -> Option<PathBuf> {
+    pub fn chosen(&mut self, choice: Choice, window: &Context) -> Option<PathBuf> {
         self.dialog = None;
         let Choice::File(purpose, path) = choice else { return None };
         match purpose {
-            Purpose::Open => self.loader.open(&path),
+            Purpose::Open => self.open_file(path),
             Purpose::Environment => self.loader.open_environment(&path),
             Purpose::SavePicture => {
                 self.picture_file = Some(path.clone());
                 return Some(path);
             }
-            Purpose::SaveEdits => self.save_edits(path),
+            Purpose::SaveEdits => self.save_edits(path, window),
         }
         None
     }
 
-    fn save_edits(&mut self, path: PathBuf) {
+    /// Writes the edits, and does what waited for that.
+    pub(crate) fn save_edits(&mut self, path: PathBuf, window: &Context) {
         let Some(mut edits) = self.document.as_ref().map(|d| d.edits.clone()) else { return };
         // What focuses by itself here would focus a little otherwise there.
         if let (true, Some(metres), Some(document)) =
@@ -391,8 +397,15 @@ impl State {
             Ok(()) => {
                 self.log.note(format!("saved {}", path.display()));
                 self.edits_file = Some(path);
+                if let Some(document) = &mut self.document {
+                    document.mark_saved();
+                }
+                self.leave_now(window);
             }
-            Err(e) => self.log.error(e.to_string()),
+            Err(e) => {
+                self.log.error(e.to_string());
+                self.leaving = None;
+            }
         }
     }
 
@@ -402,7 +415,7 @@ impl State {
         if scenes.count() > 1 {
             self.log.note("several scenes were dropped; the last one is opened");
         }
-        paths.iter().for_each(|path| self.loader.open(path));
+        paths.into_iter().for_each(|path| self.open_file(path));
     }
 
     /// A place of the picture was clicked, 0 to 1 along each axis.

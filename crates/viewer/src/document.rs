@@ -33,6 +33,8 @@ pub struct Document {
     meshes: MeshBounds,
     /// The part of the edits that `scene` shows.
     shown: Edits,
+    /// The edits that are in a file, but for the camera.
+    saved: Edits,
     maps: HashMap<PathBuf, Arc<EnvironmentMap>>,
 }
 
@@ -64,6 +66,7 @@ impl Document {
             history: History::new(undoable(&edits)),
             views: History::new(edits.camera.clone()),
             shown: Edits::default(),
+            saved: undoable(&edits),
             edits,
             places,
             meshes: opened.meshes,
@@ -74,7 +77,8 @@ impl Document {
     /// The same after its file has changed: edits, steps and views stay.
     pub fn reloaded(self, opened: OpenedScene) -> Self {
         let fresh = Document::new(opened);
-        Document { edits: self.edits, history: self.history, views: self.views, maps: self.maps, ..fresh }
+        let Document { edits, history, views, maps, saved, .. } = self;
+        Document { edits, history, views, maps, saved, ..fresh }
     }
 
     /// Opens edits in the place of those there are. They can be undone.
@@ -82,6 +86,16 @@ impl Document {
         let scene = std::mem::take(&mut self.edits.scene);
         self.edits = edits;
         self.edits.scene = scene;
+    }
+
+    /// Whether something was changed that is in no file. Looking around is no change.
+    pub fn is_unsaved(&self) -> bool {
+        undoable(&self.edits) != self.saved
+    }
+
+    /// The edits are in a file, or nobody wants them.
+    pub fn mark_saved(&mut self) {
+        self.saved = undoable(&self.edits);
     }
 
     /// Brings a map that was read from a file.

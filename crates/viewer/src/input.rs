@@ -59,6 +59,8 @@ pub enum Action {
     Panels,
     /// The window fills the screen, and back.
     FullScreen,
+    /// Closes the window.
+    Quit,
 }
 
 /// Under what heading the help shows a row.
@@ -146,6 +148,7 @@ pub const BINDINGS: &[Binding] = &[
     row(Group::Program, Action::Help, &[key(Key::F1)], "This help"),
     row(Group::Program, Action::Panels, &[key(Key::F10)], "Hide all panels, or show them"),
     row(Group::Program, Action::FullScreen, &[key(Key::F11)], "Fill the screen"),
+    row(Group::Program, Action::Quit, &[ctrl(Key::Q)], "Quit"),
 ];
 
 /// The keys of bookmarks: alone they go there, with Ctrl they are set.

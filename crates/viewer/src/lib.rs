@@ -13,7 +13,7 @@
 //!    answers when it can. Frames wait in the [`Sink`](sink::Sink), the newest only.
 //!
 //! So the interface never waits. Files are [opened](open), [watched](watch) and [listed](folder) on threads of their own, and the
-//! [`Meter`](meter::Meter) keeps the longest time that a step took.
+//! [`Meter`](meter::Meter) keeps the longest time that a step took; a [`Report`](report::Report) has them all.
 //!
 //! # How it is presented
 //!
@@ -28,6 +28,7 @@ pub mod folder;
 pub mod gizmo;
 pub mod history;
 pub mod input;
+pub mod leaving;
 pub mod log;
 pub mod meter;
 pub mod navigation;
@@ -37,6 +38,7 @@ pub mod picks;
 pub mod picture;
 pub mod places;
 pub mod recent;
+pub mod report;
 pub mod sink;
 pub mod state;
 pub mod theme;

@@ -33,13 +33,15 @@ pub struct Line {
 pub struct Log {
     began: Instant,
     lines: VecDeque<Line>,
+    /// Lines that there were so far.
+    count: usize,
     /// The last error, until it is put away.
     pending: Option<String>,
 }
 
 impl Default for Log {
     fn default() -> Self {
-        Log { began: Instant::now(), lines: VecDeque::new(), pending: None }
+        Log { began: Instant::now(), lines: VecDeque::new(), count: 0, pending: None }
     }
 }
 
@@ -54,6 +56,7 @@ impl Log {
             self.lines.pop_front();
         }
         self.lines.push_back(Line { at: self.began.elapsed(), grade, text });
+        self.count += 1;
     }
 
     /// Adds a note.
@@ -69,6 +72,16 @@ impl Log {
     /// The lines, the oldest first.
     pub fn lines(&self) -> &VecDeque<Line> {
         &self.lines
+    }
+
+    /// Lines that there were so far.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The lines that came when there were `count`, as far as they are kept.
+    pub fn since(&self, count: usize) -> impl Iterator<Item = &Line> {
+        self.lines.iter().skip(self.lines.len().saturating_sub(self.count.saturating_sub(count)))
     }
 
     /// The last line.
@@ -97,6 +110,8 @@ mod tests {
         log.error("a");
         (0..2 * LENGTH).for_each(|i| log.note(i.to_string()));
         assert_eq!(log.lines().len(), LENGTH);
+        assert_eq!(log.since(log.count() - 2).map(|l| &*l.text).collect::<Vec<_>>(), ["998", "999"]);
+        assert_eq!((log.since(0).count(), log.since(log.count()).count()), (LENGTH, 0));
         assert_eq!(log.last().unwrap().text, (2 * LENGTH - 1).to_string());
         assert_eq!(log.pending(), Some("a"));
         log.put_away();

@@ -2,6 +2,7 @@
 
 use crate::dialog::{Dialog, Purpose};
 use crate::document::Document;
+use crate::leaving::Leaving;
 use crate::log::Log;
 use crate::meter::Meter;
 use crate::navigation::{Pose, overview};
@@ -127,6 +128,8 @@ pub struct State {
     /// The file is watched.
     pub watching: bool,
     watch: Option<Watch>,
+    /// What waits until it is known what becomes of edits that are not saved.
+    pub leaving: Option<Leaving>,
     /// Where edits were saved, or read.
     pub edits_file: Option<PathBuf>,
     /// Where pictures are saved.
@@ -173,6 +176,7 @@ impl State {
             shown: Shown { signs: true, ..Shown::default() },
             watching: false,
             watch: None,
+            leaving: None,
             edits_file: None,
             picture_file: None,
             first_edits: None,

@@ -2,6 +2,7 @@
 
 use crate::app::{App, session};
 use crate::recent::Recent;
+use crate::report::Report;
 use crate::state::{Running, State};
 use eframe::egui::ViewportBuilder;
 use eframe::{NativeOptions, Renderer};
@@ -27,6 +28,8 @@ pub struct Options {
     pub watch: bool,
     /// Width and height of the window, points.
     pub size: Option<[f32; 2]>,
+    /// Where it writes down what it does, step by step.
+    pub report: Option<PathBuf>,
 }
 
 /// There is no window.
@@ -42,15 +45,23 @@ pub enum ViewError {
         "nothing can be drawn in a window here ({0}); `lumbre render SCENE -o picture.png` draws without one"
     )]
     NoPresentation(String),
+    /// The report has no file.
+    #[error("{}: {reason}", path.display())]
+    NoReport {
+        /// The file.
+        path: PathBuf,
+        /// Why it cannot be written.
+        reason: std::io::Error,
+    },
 }
 
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
-/// If there is no display, or no way to draw on it. Whatever goes wrong later is told in the window.
+/// If there is no display, no way to draw on it, or no file for the report. Whatever goes wrong later is told in the window.
 pub fn run(options: Options) -> Result<(), ViewError> {
     // The scene is read while the window opens.
-    let app = Rc::new(RefCell::new(Some(begin(&options))));
+    let app = Rc::new(RefCell::new(Some(begin(&options)?)));
     let mut reasons = Vec::new();
     for renderer in RENDERERS {
         loop {
@@ -75,7 +86,11 @@ pub fn run(options: Options) -> Result<(), ViewError> {
 /// Ways of presenting, the first that works is taken.
 const RENDERERS: &[Renderer] = &[Renderer::Glow];
 
-fn begin(options: &Options) -> App {
+fn begin(options: &Options) -> Result<App, ViewError> {
+    let report = |path: &PathBuf| {
+        Report::create(path).map_err(|reason| ViewError::NoReport { path: path.clone(), reason })
+    };
+    let report = options.report.as_ref().map(report).transpose()?;
     let running = Running { device: options.device.clone(), ..Running::default() };
     let mut state = State::new(options.load.clone(), running, Recent::of_user());
     state.watching = options.watch;
@@ -84,8 +99,9 @@ fn begin(options: &Options) -> App {
         state.first_edits.clone_from(&options.edits);
     }
     let mut app = App::new(state, session(options.gpu));
+    report.into_iter().for_each(|report| app.report(report));
     app.look_for_devices();
-    app
+    Ok(app)
 }
 
 /// One window, from its opening to its end. The contents are put back where they came from.

@@ -31,7 +31,7 @@ pub(super) struct Figures {
     /// Rays of a path, where the device counts them.
     pub(super) path_length: Option<f64>,
     /// Milliseconds of each pass in a frame, in the mean; empty without a clock of the device.
-    pub(super) passes: Vec<(String, f64)>,
+    pub(super) passes: Vec<(&'static str, f64)>,
 }
 
 /// Frames before this time do not count either.
@@ -81,7 +81,7 @@ impl Figures {
             frame_ms: 1e3 * median(&frames.seconds),
             mrays_per_second: frames.progress.rays as f64 / seconds * 1e-6,
             path_length: frames.path_rays.map(|rays| rays as f64 / samples),
-            passes: frames.passes.iter().map(|p| (p.name.clone(), per_frame(p.total_ms))).collect(),
+            passes: frames.passes.iter().map(|p| (p.name, per_frame(p.total_ms))).collect(),
         }
     }
 }
@@ -154,7 +154,7 @@ mod tests {
             passes: vec![PassTime { name: "trace", count: 6, total_ms: 90.0 }],
         };
         let f = Figures::of(&frames);
-        assert_eq!((f.frames, f.path_length, f.passes.clone()), (3, Some(2.5), vec![("trace".into(), 30.0)]));
+        assert_eq!((f.frames, f.path_length, f.passes.clone()), (3, Some(2.5), vec![("trace", 30.0)]));
         assert!((f.fps - 25.0).abs() < 1e-9 && (f.frame_ms - 20.0).abs() < 1e-9);
         assert!((f.mrays_per_second - 0.005).abs() < 1e-12);
     }

@@ -9,7 +9,7 @@ pub(super) enum Cell {
     Whole(u64),
     Number(f64),
     /// Milliseconds of passes, by name.
-    Passes(Vec<(String, f64)>),
+    Passes(Vec<(&'static str, f64)>),
     /// There is none.
     None,
 }
@@ -42,7 +42,7 @@ impl Cell {
             Cell::Number(x) => json!(x),
             Cell::Passes(passes) if passes.is_empty() => Value::Null,
             Cell::Passes(passes) => {
-                passes.iter().map(|(name, ms)| (name.clone(), json!(ms))).collect::<Map<_, _>>().into()
+                passes.iter().map(|(name, ms)| ((*name).to_owned(), json!(ms))).collect::<Map<_, _>>().into()
             }
             Cell::None => Value::Null,
         }
@@ -189,7 +189,7 @@ mod tests {
     fn passes_have_their_names() {
         let none = Cell::Passes(Vec::new());
         assert_eq!((none.text(), none.json()), ("-".into(), Value::Null));
-        let two = Cell::Passes(vec![("trace".into(), 3.25), ("tone".into(), 0.125)]);
+        let two = Cell::Passes(vec![("trace", 3.25), ("tone", 0.125)]);
         assert_eq!(two.text(), "trace 3.25, tone 0.125");
         assert_eq!(two.json(), json!({ "trace": 3.25, "tone": 0.125 }));
     }

@@ -20,7 +20,7 @@ Examples:
 
 Exit codes:
   0 the window was closed, 2 wrong usage, 65 bad edits, 66 a file cannot be opened, 69 no window can
-  be opened here: there is no display, or nothing to draw on it with";
+  be opened here: there is no display, or nothing to draw on it with, 74 the report cannot be written";
 
 /// Flags of `lumbre view`.
 #[derive(Args, Debug)]
@@ -37,6 +37,11 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "WxH", value_parser = size)]
     #[arg(allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
+
+    /// Writes what the window does to a file, a line of JSON for each step: how long it took, what it shows, and where the controls
+    /// are, for programs that drive it.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
 
     #[command(flatten)]
     pub(crate) device: DeviceArgs,

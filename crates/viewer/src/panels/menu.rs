@@ -4,7 +4,7 @@ use crate::command::Command;
 use crate::dialog::Purpose;
 use crate::input::{Action, keys_of};
 use crate::state::State;
-use eframe::egui::{Button, MenuBar, Ui, ViewportCommand};
+use eframe::egui::{Button, MenuBar, Ui};
 
 /// Shows the bar.
 pub fn show(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
@@ -68,9 +68,7 @@ fn file(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
         out.push(Command::CopyCommand);
     }
     ui.separator();
-    if ui.button("Quit").clicked() {
-        ui.ctx().send_viewport_cmd(ViewportCommand::Close);
-    }
+    item(ui, "Quit", Action::Quit, true, out);
 }
 
 fn item(ui: &mut Ui, text: &str, action: Action, enabled: bool, out: &mut Vec<Command>) {

@@ -2,6 +2,7 @@
 
 mod camera;
 mod help;
+mod leaving;
 mod lights;
 mod log;
 mod materials;
@@ -15,6 +16,7 @@ mod view;
 mod welcome;
 
 pub use help::show as help;
+pub use leaving::show as leaving;
 pub use menu::show as menu;
 pub use status::show as status;
 pub use welcome::{banner, show as welcome};

@@ -280,6 +280,8 @@ fn vector(ui: &mut Ui, v: &mut Vec3, unit: &str, range: [f32; 2], label: &Respon
     let allowed: RangeInclusive<f32> = range[0]..=range[1];
     let mut changed = false;
     for (component, tint) in [&mut v.x, &mut v.y, &mut v.z].into_iter().zip(AXIS_COLORS) {
+        // No sign before nothing.
+        *component += 0.0;
         let field = DragValue::new(component).range(allowed.clone()).speed(speed).max_decimals(3);
         let response = ui.scope(|ui| {
             ui.visuals_mut().widgets.inactive.bg_stroke = egui::Stroke::new(1.0, tint.gamma_multiply(0.5));

@@ -1,8 +1,10 @@
 //! Opening and saving.
 
 use crate::kit::{Window, asset};
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{self, Key, Modifiers};
+use lumbre::edits::{Item, Value};
 use lumbre::session::Event;
+use lumbre_viewer::dialog::{Choice, Purpose};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -75,7 +77,7 @@ fn edits_are_saved_opened_and_named_by_a_command() {
     let wanted = window.fake.wanted();
     window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     let choice = lumbre_viewer::dialog::Choice::File(lumbre_viewer::dialog::Purpose::SaveEdits, file.clone());
-    assert_eq!(window.state_mut().chosen(choice), None);
+    assert_eq!(window.state_mut().chosen(choice, &egui::Context::default()), None);
     let line = window.state().command_line().unwrap();
     assert!(
         line.starts_with("lumbre render ") && line.contains(&format!("--edits '{}'", file.display())),
@@ -159,4 +161,43 @@ fn a_file_that_changes_is_opened_again_with_the_edits() {
     window.rest();
     assert_eq!(window.fake.wanted().camera, camera, "the camera stays");
     assert!(window.fake.wanted().look.offset_ev < 0.0, "the edits stay");
+}
+
+#[test]
+fn edits_that_are_not_saved_are_not_lost() {
+    let mut window = Window::with("cornell.glb");
+    let other = asset("smooth.gltf");
+    window.state_mut().open_file(other.clone());
+    window.until("another scene", |w| w.state().document.as_ref().is_some_and(|d| d.path == other));
+    window.rest();
+    assert!(window.state().leaving.is_none(), "nothing was changed");
+    window.state_mut().set(Item::Settings, "maxDepth", Value::Whole(3));
+    window.steps(2);
+    // Another scene waits for the answer.
+    window.state_mut().open_file(asset("cornell.glb"));
+    window.steps(2);
+    assert!(window.shows("Save the edits?") && window.state().loader.under_way().is_none());
+    window.press(Modifiers::NONE, Key::Space);
+    assert!(!window.fake.wanted().paused, "keys are for the question");
+    window.click_on("Stay");
+    assert!(!window.shows("Save the edits?"));
+    // And so does the window.
+    assert!(!window.state_mut().may_close());
+    window.steps(2);
+    window.click_on("Save");
+    window.steps(2);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("kept.edits.json");
+    let context = egui::Context::default();
+    window.state_mut().chosen(Choice::File(Purpose::SaveEdits, path.clone()), &context);
+    assert!(path.exists() && window.state().leaving.is_none());
+    assert!(window.state_mut().may_close());
+    // What is of no use is let go.
+    window.state_mut().set(Item::Settings, "maxDepth", Value::Whole(4));
+    window.steps(2);
+    window.state_mut().open_file(asset("cornell.glb"));
+    window.steps(2);
+    window.click_on("Discard");
+    window
+        .until("the scene", |w| w.state().document.as_ref().is_some_and(|d| d.path == asset("cornell.glb")));
 }

@@ -112,7 +112,7 @@ impl Window {
                 app.enter(ui.ctx());
             }
             app.receive(ui.ctx());
-            app.show(ui);
+            app.show(ui, None);
         };
         let builder =
             Harness::builder().with_size(size).with_pixels_per_point(scale).with_step_dt(1.0 / 60.0);

@@ -74,7 +74,7 @@ fn the_view_is_to_the_bit_what_its_edits_render() {
     state.loader.open(&asset("cornell.glb"));
     let step = |ui: &mut egui::Ui, app: &mut App| {
         app.receive(ui.ctx());
-        app.show(ui);
+        app.show(ui, None);
     };
     let builder = Harness::builder().with_size([96.0, 64.0]).with_step_dt(1.0 / 60.0);
     let mut ui = builder.build_ui_state(step, App::new(state, start));
