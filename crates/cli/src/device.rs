@@ -42,10 +42,21 @@ pub(crate) fn pool(args: &DeviceArgs) -> Result<ThreadPool, Failure> {
     threads(args).build().map_err(no_threads)
 }
 
-/// The same for all of the program: where others start the work.
+/// The same for all of the program, where others start the work: threads that stand back for a window.
 pub(crate) fn common_pool(args: &DeviceArgs) -> Result<(), Failure> {
-    threads(args).build_global().map_err(no_threads)
+    threads(args).start_handler(|_| stand_back()).build_global().map_err(no_threads)
 }
+
+/// The thread gets the processor when nobody else asks for it. Without that, a window on a machine whose processors all render waits for its
+/// turn. Linux alone has this for threads; where it is refused, all goes as before.
+fn stand_back() {
+    #[cfg(all(target_os = "linux", feature = "viewer"))]
+    let _ = rustix::process::setpriority_process(Some(rustix::thread::gettid()), NICE);
+}
+
+/// As `nice` counts: a tenth of the share of others.
+#[cfg(all(target_os = "linux", feature = "viewer"))]
+const NICE: i32 = 10;
 
 fn threads(args: &DeviceArgs) -> ThreadPoolBuilder {
     // 0: rayon counts the processors.

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// Longest wait for anything.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(120);
 /// Between two moves of the mouse: a hundred a second.
 const MOVE: Duration = Duration::from_millis(10);
 
@@ -186,14 +186,25 @@ impl Hand {
         });
     }
 
+    /// The same once the picture in the window has as many samples as people want to look at.
+    #[track_caller]
+    pub(crate) fn photograph_whole(&mut self, name: &str) {
+        self.settled();
+        let samples =
+            std::env::var("LUMBRE_WINDOW_SAMPLES").ok().and_then(|v| v.parse().ok()).unwrap_or(1u64);
+        self.until("samples", |h| h.last["spp"].as_u64() >= Some(samples));
+        self.photograph(name);
+    }
+
     /// Begins a part of the tour.
     pub(crate) fn part(&mut self, name: &'static str) {
         self.look();
         self.parts.push((name, self.steps.len()));
     }
 
-    /// Takes a picture of the display.
+    /// Takes a picture of the display, once what glides has come to rest.
     pub(crate) fn photograph(&mut self, name: &str) {
+        sleep(Duration::from_millis(250));
         self.shots += 1;
         self.display.photograph(&self.album.join(format!("{:02}-{name}.png", self.shots)));
     }

@@ -36,14 +36,12 @@ fn tour(device: &str, other: &str, size: [u32; 2]) {
     h.part("open");
     h.until("the first frame", |h| h.last["spp"].as_u64() > Some(0));
     println!("{device}: the first frame {:.2} s after the window", h.steps.last().unwrap().at);
-    h.settled();
-    h.photograph("opened");
+    h.photograph_whole("opened");
 
     h.part("orbit");
     let picture = h.picture();
     h.drag("1", picture.at(0.5, 0.5), picture.at(0.42, 0.54), 60);
-    h.settled();
-    h.photograph("orbited");
+    h.photograph_whole("orbited");
 
     h.part("pick");
     // Folded, they make room for those below.
@@ -53,7 +51,7 @@ fn tour(device: &str, other: &str, size: [u32; 2]) {
     h.press("Material");
     h.click(picture.at(0.5, 0.7));
     h.until("a material", |h| h.find("Roughness", slider).is_some());
-    h.photograph("picked");
+    h.photograph_whole("picked");
 
     h.part("edit a material");
     let before = h.in_bar("Roughness", slider);
@@ -72,8 +70,7 @@ fn tour(device: &str, other: &str, size: [u32; 2]) {
     h.press("Lights");
     h.press("Point");
     h.until("the light", |h| h.widgets.iter().any(|w| w.name.ends_with("(added)")));
-    h.settled();
-    h.photograph("lit");
+    h.photograph_whole("lit");
     h.press("Lights");
 
     h.part("move an object");
@@ -87,9 +84,10 @@ fn tour(device: &str, other: &str, size: [u32; 2]) {
     h.press("Scene");
 
     h.part("switch the camera");
+    // Back to the one that was left, and on to the next.
     h.key("c");
-    h.settled();
-    h.photograph("inside");
+    h.key("c");
+    h.photograph_whole("inside");
 
     h.part("switch the device");
     switch(h, other);
@@ -98,8 +96,7 @@ fn tour(device: &str, other: &str, size: [u32; 2]) {
 
     h.part("undo");
     h.key("ctrl+z");
-    h.settled();
-    h.photograph("undone");
+    h.photograph_whole("undone");
     h.key("ctrl+y");
     h.settled();
 
@@ -117,9 +114,7 @@ fn tour(device: &str, other: &str, size: [u32; 2]) {
 
     h.part("help");
     h.key("F1");
-    h.until("the help", |h| {
-        h.find("Orbit", |_| true).is_some() || h.widgets.iter().any(|w| w.value == "Orbit")
-    });
+    h.until("the help", |h| h.widgets.iter().any(|w| w.value == "Orbit"));
     h.photograph("help");
     h.key("F1");
     h.key("F10");
