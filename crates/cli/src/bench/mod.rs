@@ -31,6 +31,10 @@ use std::time::Instant;
 pub(crate) fn run(args: &mut BenchArgs, started: Instant) -> Result<Code, Failure> {
     args.loading.read_edits()?;
     let args = &*args;
+    if args.table == Which::View {
+        // As in the window, where nobody says which threads.
+        device::common_pool(&args.device)?;
+    }
     // An unavailable device is said before a scene is opened; but opening it belongs to the first frame.
     if args.table != Which::FirstFrame {
         drop(device::open(&args.device)?);

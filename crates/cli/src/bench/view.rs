@@ -6,7 +6,6 @@ use super::settings;
 use super::sweep::HD;
 use super::table::{Cell, Column, Table};
 use crate::console;
-use crate::device;
 use crate::exit::{Code, Failure};
 use crate::flags::bench::BenchArgs;
 use crate::memory;
@@ -198,7 +197,6 @@ fn edited(scene: &Scene, step: u32) -> Scene {
 }
 
 pub(super) fn table(args: &BenchArgs) -> Result<Table, Failure> {
-    device::common_pool(&args.device)?;
     let sizes = args.sizes.as_ref().map_or(vec![HD], |sizes| sizes.iter().map(|s| s.0).collect());
     let (mut rows, mut device) = (Vec::new(), String::new());
     for path in scenes(args)? {

@@ -235,6 +235,8 @@ struct Run<'a> {
     estimator: Estimator,
     scale: u32,
     spp: u32,
+    /// The canvas holds nothing but these samples.
+    clear: bool,
     /// Frames so far: the random stream of rough ones.
     rough: u32,
     began: Instant,
@@ -259,6 +261,7 @@ impl<'a> Run<'a> {
             estimator: Estimator::new(&Film::new(0, 0), &engine.wanted.settings),
             scale: 1,
             spp: 0,
+            clear: false,
             rough: 0,
             began: Instant::now(),
             passes: backend.pass_times(),
@@ -266,21 +269,19 @@ impl<'a> Run<'a> {
             exposed: None,
             easing: false,
         };
-        run.begin(engine)?;
+        run.begin(engine);
         Ok(run)
     }
 
     /// Begins the picture anew, as rough as is quick.
-    fn begin(&mut self, engine: &Engine) -> Result<(), RenderError> {
+    fn begin(&mut self, engine: &Engine) {
         self.began = Instant::now();
-        self.at_scale(engine, engine.pace.scale(engine.wanted.size))
+        self.at_scale(engine.pace.scale(engine.wanted.size));
     }
 
-    fn at_scale(&mut self, engine: &Engine, scale: u32) -> Result<(), RenderError> {
-        (self.scale, self.spp) = (scale, 0);
-        self.canvas.clear(scaled(engine.wanted.size, scale))?;
-        self.estimator = Estimator::new(&Film::new(0, 0), &engine.wanted.settings);
-        Ok(())
+    /// The next pass begins with nothing, so rough. A canvas of full size is not cleared before that: what comes next may be rougher.
+    fn at_scale(&mut self, scale: u32) {
+        (self.scale, self.spp, self.clear) = (scale, 0, false);
     }
 
     /// Whether there is nothing to sample.
@@ -302,9 +303,9 @@ impl<'a> Run<'a> {
     fn turn(&mut self, engine: &mut Engine, before: &Wanted) -> Result<(), RenderError> {
         let wanted = &engine.wanted;
         if before.begins_anew(wanted) {
-            self.begin(engine)?;
+            self.begin(engine);
         } else if self.scale > 1 && self.spp > 0 && !wanted.moving {
-            self.at_scale(engine, finer(self.scale))?;
+            self.at_scale(finer(self.scale));
         }
         let developed_anew = before.look != wanted.look || before.layer != wanted.layer || self.easing;
         if before.look != wanted.look {
@@ -329,12 +330,18 @@ impl<'a> Run<'a> {
         let count = count.min(wanted.limit.max(1) - self.spp);
         self.rough += u32::from(self.scale > 1);
         let view = engine.view(if self.scale > 1 { self.rough } else { 0 });
+        if !self.clear {
+            self.canvas.clear(size)?;
+            self.estimator = Estimator::new(&Film::new(0, 0), &wanted.settings);
+            self.clear = true;
+        }
         let began = Instant::now();
         let done = self.canvas.add(&view, self.spp..self.spp + count, &Interrupt(&engine.shared))?;
         let seconds = began.elapsed().as_secs_f64();
         if done.samples < pixels * u64::from(count) {
             // Uneven: what interrupted it begins anew, or lets go of all of it.
-            return self.at_scale(engine, self.scale);
+            self.at_scale(self.scale);
+            return Ok(());
         }
         engine.pace.learn(done.samples, seconds);
         self.spp += count;
