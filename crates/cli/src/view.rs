@@ -5,7 +5,7 @@ use crate::exit::{Code, Failure};
 use crate::flags::values::Size;
 use crate::flags::view::ViewArgs;
 use lumbre::edits::Edits;
-use lumbre_viewer::{Options, ViewError};
+use lumbre_viewer::{Options, Report, ViewError};
 use std::path::Path;
 
 /// Runs the command.
@@ -19,6 +19,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Code, Failure> {
         Edits::read(edits)?;
     }
     device::common_pool(&args.device)?;
+    let report = args.report.as_deref().map(report).transpose()?;
     lumbre_viewer::run(Options {
         scene: args.scene.clone(),
         load: args.loading.options(),
@@ -26,10 +27,16 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Code, Failure> {
         device: args.device.device.clone(),
         gpu: args.device.options(),
         watch: args.watch,
-        report: args.report.clone(),
+        report,
         size: args.size.map(|Size(size)| size.map(|n| n as f32)),
     })?;
     Ok(Code::Done)
+}
+
+fn report(path: &Path) -> Result<Report, Failure> {
+    let file = std::fs::File::create(path);
+    let file = file.map_err(|e| Failure::new(Code::CannotWrite, format!("{}: {e}", path.display())))?;
+    Ok(Report::new(Box::new(file)))
 }
 
 fn is_there(scene: &Path) -> Result<(), Failure> {
@@ -39,7 +46,6 @@ fn is_there(scene: &Path) -> Result<(), Failure> {
 
 impl From<ViewError> for Failure {
     fn from(e: ViewError) -> Self {
-        let code = if let ViewError::NoReport { .. } = e { Code::CannotWrite } else { Code::Unavailable };
-        Self::new(code, e)
+        Self::new(Code::Unavailable, e)
     }
 }

@@ -45,4 +45,5 @@ pub mod theme;
 pub mod watch;
 mod window;
 
+pub use report::Report;
 pub use window::{Options, ViewError, run};

@@ -17,9 +17,8 @@ use eframe::egui::accesskit::{Node, NodeId, Role, TreeUpdate};
 use eframe::egui::{Context, FullOutput, Plugin, ViewportId};
 use serde_json::{Value, json};
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::fmt;
+use std::io::Write;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -52,7 +51,7 @@ pub struct Report(Arc<Mutex<Lines>>);
 
 struct Lines {
     /// `None` once it could not be written.
-    file: Option<BufWriter<File>>,
+    to: Option<Box<dyn Write + Send>>,
     began: Instant,
     step: Step,
     widgets: Vec<Value>,
@@ -61,15 +60,11 @@ struct Lines {
 }
 
 impl Report {
-    /// Begins a report in a file of its own.
-    ///
-    /// # Errors
-    /// If the file cannot be created.
-    pub fn create(path: &Path) -> io::Result<Self> {
-        let file = Some(BufWriter::new(File::create(path)?));
+    /// Begins a report, which goes where `to` leads, line by line.
+    pub fn new(to: Box<dyn Write + Send>) -> Self {
         let began = Instant::now();
-        let lines = Lines { file, began, step: Step::default(), widgets: Vec::new(), logged: 0 };
-        Ok(Report(Arc::new(Mutex::new(lines))))
+        let lines = Lines { to: Some(to), began, step: Step::default(), widgets: Vec::new(), logged: 0 };
+        Report(Arc::new(Mutex::new(lines)))
     }
 
     fn lines(&self) -> MutexGuard<'_, Lines> {
@@ -91,6 +86,12 @@ impl Report {
     }
 }
 
+impl fmt::Debug for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Report")
+    }
+}
+
 /// Sees what a window puts out.
 struct Follow(Report);
 
@@ -109,7 +110,7 @@ impl Plugin for Follow {
 
 impl Lines {
     fn write(&mut self, again: bool, widgets: Vec<Value>) {
-        let Some(file) = &mut self.file else { return };
+        let Some(to) = &mut self.to else { return };
         let step = std::mem::take(&mut self.step);
         // What egui lays out twice is one step.
         let Some(began) = step.began else { return };
@@ -132,8 +133,8 @@ impl Lines {
             line["widgets"] = widgets.clone().into();
             self.widgets = widgets;
         }
-        if writeln!(file, "{line}").and_then(|()| file.flush()).is_err() {
-            self.file = None;
+        if to.write_all(format!("{line}\n").as_bytes()).is_err() {
+            self.to = None;
         }
     }
 }
@@ -169,7 +170,7 @@ mod tests {
     fn each_step_is_a_line_with_what_is_new() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("report.jsonl");
-        let report = Report::create(&path).unwrap();
+        let report = Report::new(Box::new(std::fs::File::create(&path).unwrap()));
         let window = Context::default();
         report.follow(&window);
         let mut log = Log::default();

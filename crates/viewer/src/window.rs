@@ -29,7 +29,7 @@ pub struct Options {
     /// Width and height of the window, points.
     pub size: Option<[f32; 2]>,
     /// Where it writes down what it does, step by step.
-    pub report: Option<PathBuf>,
+    pub report: Option<Report>,
 }
 
 /// There is no window.
@@ -45,23 +45,15 @@ pub enum ViewError {
         "nothing can be drawn in a window here ({0}); `lumbre render SCENE -o picture.png` draws without one"
     )]
     NoPresentation(String),
-    /// The report has no file.
-    #[error("{}: {reason}", path.display())]
-    NoReport {
-        /// The file.
-        path: PathBuf,
-        /// Why it cannot be written.
-        reason: std::io::Error,
-    },
 }
 
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
-/// If there is no display, no way to draw on it, or no file for the report. Whatever goes wrong later is told in the window.
+/// If there is no display, or no way to draw on it. Whatever goes wrong later is told in the window.
 pub fn run(options: Options) -> Result<(), ViewError> {
     // The scene is read while the window opens.
-    let app = Rc::new(RefCell::new(Some(begin(&options)?)));
+    let app = Rc::new(RefCell::new(Some(begin(&options))));
     let mut reasons = Vec::new();
     for renderer in RENDERERS {
         loop {
@@ -84,13 +76,13 @@ pub fn run(options: Options) -> Result<(), ViewError> {
 }
 
 /// Ways of presenting, the first that works is taken.
-const RENDERERS: &[Renderer] = &[Renderer::Glow];
+const RENDERERS: &[Renderer] = &[
+    Renderer::Glow,
+    #[cfg(feature = "vulkan-window")]
+    Renderer::Wgpu,
+];
 
-fn begin(options: &Options) -> Result<App, ViewError> {
-    let report = |path: &PathBuf| {
-        Report::create(path).map_err(|reason| ViewError::NoReport { path: path.clone(), reason })
-    };
-    let report = options.report.as_ref().map(report).transpose()?;
+fn begin(options: &Options) -> App {
     let running = Running { device: options.device.clone(), ..Running::default() };
     let mut state = State::new(options.load.clone(), running, Recent::of_user());
     state.watching = options.watch;
@@ -99,9 +91,9 @@ fn begin(options: &Options) -> Result<App, ViewError> {
         state.first_edits.clone_from(&options.edits);
     }
     let mut app = App::new(state, session(options.gpu));
-    report.into_iter().for_each(|report| app.report(report));
+    options.report.iter().for_each(|report| app.report(report.clone()));
     app.look_for_devices();
-    Ok(app)
+    app
 }
 
 /// One window, from its opening to its end. The contents are put back where they came from.

@@ -22,7 +22,7 @@ pub fn show(window: &Context, state: &State, out: &mut Vec<Command>) {
             }
         });
         ui.add_space(8.0);
-        ui.horizontal(|ui| buttons(ui)).inner
+        ui.horizontal(buttons).inner
     });
     let away = asked.should_close() || window.input(|i| i.key_pressed(Key::Escape));
     let how = asked.inner.or(away.then_some(Leave::Stay));

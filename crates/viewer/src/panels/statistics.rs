@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, _: &mut Vec<Command>) {
             row("Not finite", stats.non_finite.to_string());
         }
         for pass in &stats.passes {
-            row(&pass.name, format!("{:.2} ms", pass.total_ms));
+            row(pass.name, format!("{:.2} ms", pass.total_ms));
         }
         let (last, longest) = meter.updates();
         let ms = |d: std::time::Duration| d.as_secs_f64() * 1e3;
