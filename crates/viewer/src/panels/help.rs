@@ -11,7 +11,7 @@ pub fn show(ctx: &Context) -> bool {
         .collapsible(false)
         .pivot(egui::Align2::CENTER_CENTER)
         .default_pos(ctx.content_rect().center())
-        .default_size([700.0, 560.0])
+        .default_size([700.0, 610.0])
         .show(ctx, |ui| {
             ScrollArea::vertical().show(ui, |ui| {
                 ui.columns(2, |columns| {

@@ -258,6 +258,8 @@ fn start(kind: &Kind) -> Value {
 fn color(ui: &mut Ui, color: &mut Rgb, most: f32, label: &Response) -> bool {
     let strength = color.max_component().max(1.0);
     let mut shown = (*color * (1.0 / strength)).to_array();
+    // A swatch, three numbers, and the sign that resets them.
+    ui.spacing_mut().item_spacing.x = 4.0;
     let mut changed = ui.color_edit_button_rgb(&mut shown).labelled_by(label.id).changed();
     if changed {
         *color = Rgb::from_array(shown.map(|v| (v * strength).clamp(0.0, most)));
@@ -265,7 +267,7 @@ fn color(ui: &mut Ui, color: &mut Rgb, most: f32, label: &Response) -> bool {
     let mut bands = color.to_array();
     for band in &mut bands {
         let field = DragValue::new(band).range(0.0..=most).speed(0.005).max_decimals(3);
-        changed |= ui.add(field).changed();
+        changed |= ui.add_sized([44.0, ui.spacing().interact_size.y], field).changed();
     }
     *color = Rgb::from_array(bands);
     changed
