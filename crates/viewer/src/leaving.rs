@@ -54,7 +54,8 @@ impl State {
         match how {
             Leave::Stay => self.leaving = None,
             Leave::Discard => {
-                if let Some(document) = &mut self.document {
+                // A scene that cannot be opened leaves them as they are.
+                if let (Some(Leaving::Close), Some(document)) = (&self.leaving, &mut self.document) {
                     document.mark_saved();
                 }
                 self.leave_now(window);

@@ -13,7 +13,7 @@
 //!    answers when it can. Frames wait in the [`Sink`](sink::Sink), the newest only.
 //!
 //! So the interface never waits. Files are [opened](open), [watched](watch) and [listed](folder) on threads of their own, and the
-//! [`Meter`](meter::Meter) keeps the longest time that a step took; a [`Report`](report::Report) has them all.
+//! [`Meter`](meter::Meter) keeps the longest time that a step took; a [`Report`] has them all.
 //!
 //! # How it is presented
 //!
