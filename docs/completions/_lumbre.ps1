@@ -106,6 +106,7 @@ Register-ArgumentCompleter -Native -CommandName 'lumbre' -ScriptBlock {
         }
         'lumbre;view' {
             [CompletionResult]::new('--size', '--size', [CompletionResultType]::ParameterName, 'Size of the window, in the points of the display. [default: 1280x800]')
+            [CompletionResult]::new('--report', '--report', [CompletionResultType]::ParameterName, 'Writes what the window does to a file, a line of JSON for each step: how long it took, what it shows, and where the controls are, for programs that drive it')
             [CompletionResult]::new('--device', '--device', [CompletionResultType]::ParameterName, 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them')
             [CompletionResult]::new('--threads', '--threads', [CompletionResultType]::ParameterName, 'Threads. [default: one for each processor]')
             [CompletionResult]::new('--scene', '--scene', [CompletionResultType]::ParameterName, 'Which of the file''s scenes: its name, or its number from 0. [default: the one that the file names, else the first]')

@@ -951,13 +951,17 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__view)
-            opts="-h --watch --size --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
+            opts="-h --watch --size --report --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
                 --size)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --report)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -101,6 +101,7 @@ set edit:completion:arg-completer[lumbre] = {|@words|
         }
         &'lumbre;view'= {
             cand --size 'Size of the window, in the points of the display. [default: 1280x800]'
+            cand --report 'Writes what the window does to a file, a line of JSON for each step: how long it took, what it shows, and where the controls are, for programs that drive it'
             cand --device 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them'
             cand --threads 'Threads. [default: one for each processor]'
             cand --scene 'Which of the file''s scenes: its name, or its number from 0. [default: the one that the file names, else the first]'

@@ -112,6 +112,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l validation -d '
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l stats -d 'At the end, say in a table what took how much time and memory; with --progress json as part of the last line'
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l size -d 'Size of the window, in the points of the display. [default: 1280x800]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l report -d 'Writes what the window does to a file, a line of JSON for each step: how long it took, what it shows, and where the controls are, for programs that drive it' -r -F
 complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l device -d 'Where to render: `auto`, the best GPU that traces rays, or the CPU where there is none or it fails; `cpu`; `gpu`, the best GPU or an error; `gpu:N`, or the name of a GPU or a part of it. `lumbre devices` lists them' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l threads -d 'Threads. [default: one for each processor]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand view" -l scene -d 'Which of the file\'s scenes: its name, or its number from 0. [default: the one that the file names, else the first]' -r
