@@ -13,7 +13,7 @@ use crate::report::{Report, Step};
 use crate::sink::Sink;
 use crate::state::{REST, State};
 use eframe::egui::{self, CentralPanel, Context, Event as Input, Frame, Panel, Rect, Ui, ViewportCommand};
-use lumbre::session::{FrameSink, Session, Wanted};
+use lumbre::session::{FrameSink, FrameStats, Layer, Session, Wanted};
 use lumbre::{Device, GpuOptions};
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -145,7 +145,12 @@ impl App {
             self.state.meter.shown(now);
             self.answered(frame.number, now);
             self.number = frame.number;
-            self.state.stats = frame.stats;
+            // Other layers have no exposure.
+            let exposure_ev = match self.state.running.layer {
+                Layer::Picture if !self.state.running.preview => frame.stats.exposure_ev,
+                _ => self.state.stats.exposure_ev,
+            };
+            self.state.stats = FrameStats { exposure_ev, ..frame.stats };
         }
         news.events.into_iter().for_each(|event| self.state.happened(event));
         for opened in self.state.loader.take() {
@@ -185,6 +190,7 @@ impl App {
                     && document.edits.sky_file().is_some_and(|file| file == path)
                 {
                     document.give_up();
+                    state.refuse_edits();
                 }
             }
             Opened::Environment { path, map, notes } => {
@@ -193,10 +199,8 @@ impl App {
             }
             Opened::Edits { path, edits } => match &mut state.document {
                 Some(document) => {
+                    state.arriving = Some((path, document.edits.camera.clone()));
                     document.replace_edits(*edits);
-                    document.mark_saved();
-                    state.log.note(format!("{} opened", path.display()));
-                    state.edits_file = Some(path);
                     state.stir();
                 }
                 None => state.log.error("edits belong to a scene: open that first"),
@@ -320,8 +324,12 @@ impl App {
                     state.loader.open_environment(&file);
                 }
             }
-            Settled::Refused(reason) => state.log.error(reason),
+            Settled::Refused(reason) => {
+                state.log.error(reason);
+                state.refuse_edits();
+            }
         }
+        state.accept_edits();
         let moving = state.is_moving();
         if let Some(document) = &mut state.document {
             document.note_steps(busy || moving);

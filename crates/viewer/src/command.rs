@@ -177,6 +177,8 @@ impl State {
 
     fn view(&mut self, go: impl FnOnce(&mut crate::history::History<Changes>) -> Option<Changes>) {
         let Some(document) = &mut self.document else { return };
+        // A move that has not come to rest is a step of its own.
+        document.views.observe(&document.edits.camera, false);
         if let Some(camera) = go(&mut document.views) {
             document.edits.camera = camera;
             self.stir();
@@ -245,10 +247,7 @@ impl State {
         if count == 0 {
             return self.log.note("the scene has no camera");
         }
-        let at = match document.edits.camera.get("camera") {
-            Some(Value::Text(text)) => text.parse::<usize>().unwrap_or(0),
-            _ => 0,
-        };
+        let at = document.camera();
         // Back to the camera itself before the next one, where one has walked away from it.
         let walked = document.edits.camera.get("eye").is_some();
         self.file_camera(if walked { at } else { (at + 1) % count });

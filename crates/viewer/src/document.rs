@@ -6,7 +6,7 @@ use crate::history::History;
 use crate::open::OpenedScene;
 use crate::places::{MeshBounds, Places};
 use lumbre::camera::camera_names;
-use lumbre::edits::{Changes, Edits, Item};
+use lumbre::edits::{Changes, Edits, Item, Value};
 use lumbre::scene::{EnvironmentMap, Scene};
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -88,6 +88,17 @@ impl Document {
         self.edits.scene = scene;
     }
 
+    /// Which of the file's cameras looks, by number: edits name it or number it.
+    pub fn camera(&self) -> usize {
+        match self.edits.camera.get("camera") {
+            Some(Value::Text(text)) => {
+                let named = self.cameras.iter().position(|name| name == text);
+                named.or_else(|| text.parse().ok()).unwrap_or(0)
+            }
+            _ => 0,
+        }
+    }
+
     /// Whether something was changed that is in no file. Looking around is no change.
     pub fn is_unsaved(&self) -> bool {
         undoable(&self.edits) != self.saved
@@ -101,6 +112,11 @@ impl Document {
     /// Brings a map that was read from a file.
     pub fn know(&mut self, path: PathBuf, map: Arc<EnvironmentMap>) {
         self.maps.insert(path, map);
+    }
+
+    /// Whether the scene is that of the edits.
+    pub fn is_settled(&self) -> bool {
+        self.scene_part() == self.shown
     }
 
     /// Makes the scene anew where the edits ask for it.
@@ -150,12 +166,14 @@ impl Document {
 
     /// Takes the last step back. Whether there was one.
     pub fn undo(&mut self) -> bool {
+        self.history.observe(&undoable(&self.edits), false);
         let before = self.history.undo();
         before.map(|edits| self.set_undoable(edits)).is_some()
     }
 
     /// Makes it again.
     pub fn redo(&mut self) -> bool {
+        self.history.observe(&undoable(&self.edits), false);
         let after = self.history.redo();
         after.map(|edits| self.set_undoable(edits)).is_some()
     }

@@ -22,7 +22,8 @@ pub enum Why {
 #[derive(Clone, Debug, Default)]
 pub struct Picks {
     waiting: VecDeque<([f32; 2], Why)>,
-    asked: Option<Why>,
+    /// What was asked; `Some(None)`: something that is of no use any more.
+    asked: Option<Option<Why>>,
 }
 
 /// More than this wait only where nothing answers.
@@ -45,18 +46,19 @@ impl Picks {
             return None;
         }
         let (at, why) = self.waiting.pop_front()?;
-        self.asked = Some(why);
+        self.asked = Some(Some(why));
         Some(at)
     }
 
     /// An answer came: what it is for.
     pub fn answered(&mut self) -> Option<Why> {
-        self.asked.take()
+        self.asked.take().flatten()
     }
 
     /// Forgets all: another scene is open. An answer that is under way is still waited for and then has no meaning.
     pub fn clear(&mut self) {
         self.waiting.clear();
+        self.asked = self.asked.map(|_| None);
     }
 }
 
@@ -86,5 +88,18 @@ mod tests {
         assert_eq!(picks.to_ask(), Some([99.0, 0.5]));
         picks.answered();
         assert_eq!(picks.to_ask(), None);
+    }
+
+    #[test]
+    fn an_answer_about_another_scene_means_nothing() {
+        let mut picks = Picks::default();
+        picks.ask([0.1, 0.1], Why::Select);
+        picks.to_ask();
+        picks.clear();
+        picks.ask([0.2, 0.2], Why::Frame);
+        assert_eq!(picks.to_ask(), None, "the answer is still under way");
+        assert_eq!(picks.answered(), None);
+        assert_eq!(picks.to_ask(), Some([0.2, 0.2]));
+        assert_eq!(picks.answered(), Some(Why::Frame));
     }
 }

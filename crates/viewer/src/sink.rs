@@ -25,6 +25,8 @@ pub struct News {
     pub made: Vec<FrameStats>,
     /// What happened, in the order it did.
     pub events: Vec<Event>,
+    /// The newest wish of which a frame came.
+    newest: u64,
 }
 
 /// Statistics of frames that are kept for an interface that does not look: a minimised window.
@@ -45,7 +47,9 @@ impl Sink {
 
     /// Takes what came.
     pub fn take(&self) -> News {
-        std::mem::take(&mut *self.news())
+        let mut news = self.news();
+        let newest = news.newest;
+        std::mem::replace(&mut *news, News { newest, ..News::default() })
     }
 
     fn news(&self) -> MutexGuard<'_, News> {
@@ -67,6 +71,11 @@ impl FrameSink for Sink {
         let image = Arc::new(ColorImage::from_rgba_unmultiplied(size, &frame.rgba));
         let shown = Shown { image, number: frame.number, stats: frame.stats };
         let mut news = self.news();
+        // A picture that was being developed when another layer was asked for.
+        if shown.number < news.newest {
+            return;
+        }
+        news.newest = shown.number;
         if news.made.len() == KEPT {
             news.made.clear();
         }
@@ -107,6 +116,17 @@ mod tests {
         assert_eq!(news.events.len(), 2);
         let nothing = sink.take();
         assert!(nothing.frame.is_none() && nothing.events.is_empty() && nothing.made.is_empty());
+    }
+
+    #[test]
+    fn a_frame_of_an_older_wish_is_not_shown() {
+        let sink = Sink::default();
+        sink.frame(frame(5));
+        sink.take();
+        sink.frame(frame(4));
+        assert!(sink.take().frame.is_none());
+        sink.frame(frame(5));
+        assert_eq!(sink.take().frame.unwrap().number, 5);
     }
 
     #[test]

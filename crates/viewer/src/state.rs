@@ -18,7 +18,7 @@ use lumbre::core::settings::RenderSettings;
 use lumbre::edits::{Changes, Edits, EditsError, Item, LookEdits, Value};
 use lumbre::scene::{CompiledScene, EnvironmentMap, MaterialId, NodeId, Scene};
 use lumbre::session::{Event, FrameStats, Layer, Picked, ViewLook, Wanted};
-use lumbre::{Device, LoadOptions};
+use lumbre::{Device, LoadOptions, Look};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
@@ -136,6 +136,8 @@ pub struct State {
     pub picture_file: Option<PathBuf>,
     /// Edits that are to be opened with the first scene.
     pub first_edits: Option<PathBuf>,
+    /// The file of edits that were opened, and the camera before them, until it is known that they fit.
+    pub arriving: Option<(PathBuf, Changes)>,
     /// The scene before the last one that was opened, until that is on the device.
     pub before: Option<Document>,
     /// Devices of this machine, once they are known.
@@ -180,6 +182,7 @@ impl State {
             edits_file: None,
             picture_file: None,
             first_edits: None,
+            arriving: None,
             before: None,
             devices: Vec::new(),
             full_screen: false,
@@ -367,6 +370,7 @@ impl State {
         let running = &self.running;
         let look = self.look();
         let mut settings = document.edits.settings(RenderSettings::default());
+        let transparent = settings.transparent_background;
         if running.preview {
             settings = RenderSettings { max_depth: Some(0), light_sampling: false, ..settings };
         }
@@ -380,10 +384,31 @@ impl State {
             paused: running.paused,
             restarts: running.restarts,
             moving: self.is_moving(),
-            look: ViewLook { look: look.look, eased: running.eased, offset_ev: look.offset_ev },
+            look: ViewLook {
+                look: Look { transparent, ..look.look },
+                eased: running.eased,
+                offset_ev: look.offset_ev,
+            },
             layer: if running.preview { Layer::Normal } else { running.layer },
             device: running.device.clone(),
         })
+    }
+
+    /// The edits that were opened are shown, unless something of them is still being read.
+    pub fn accept_edits(&mut self) {
+        let Some(document) = &mut self.document else { return };
+        if let Some((path, _)) = self.arriving.take_if(|_| document.is_settled()) {
+            document.mark_saved();
+            self.log.note(format!("{} opened", path.display()));
+            self.edits_file = Some(path);
+        }
+    }
+
+    /// They do not fit: the camera goes back too.
+    pub fn refuse_edits(&mut self) {
+        if let (Some((_, camera)), Some(document)) = (self.arriving.take(), &mut self.document) {
+            document.edits.camera = camera;
+        }
     }
 
     /// Something happened in the session.

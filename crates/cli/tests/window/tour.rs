@@ -175,7 +175,7 @@ fn save(h: &mut Hand, key: &str, name: &str) -> std::path::PathBuf {
     path
 }
 
-/// Says how long the steps took, and refuses those that held the window up.
+/// Says how long the steps took.
 fn tell(device: &str, parts: &[(&'static str, usize)], steps: &[Step]) {
     let ends = parts.iter().skip(1).map(|(_, first)| *first).chain([steps.len()]);
     println!(

@@ -63,11 +63,13 @@ impl Edits {
     /// If it cannot be written; an older file is then as it was.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), IoError> {
         let path = path.as_ref();
-        let folder = path.parent().unwrap_or(Path::new(""));
+        let full = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        let whole = full(path);
+        let folder = whole.parent().unwrap_or(Path::new(""));
         let mut edits = self.clone();
         edits.move_sky(|file| {
-            let below = Path::new(file).strip_prefix(folder).ok();
-            below.map_or_else(|| file.to_owned(), |rest| rest.to_string_lossy().into_owned())
+            let file = full(Path::new(file));
+            file.strip_prefix(folder).unwrap_or(&file).to_string_lossy().into_owned()
         });
         write_text(path, &edits.to_text())
     }

@@ -83,10 +83,17 @@ impl Engine {
             loop {
                 *self.shared.drawn() = Some(made.compiled.clone());
                 let updated = match self.frames(&*backend, &made)? {
-                    Next::Device => break,
+                    Next::Device => {
+                        self.failed = None;
+                        break;
+                    }
                     Next::Scene(other, changes) => {
                         made = *other;
-                        let Some(changes) = changes else { break };
+                        let Some(changes) = changes else {
+                            // What had no room for the last one may have room for this.
+                            self.failed = None;
+                            break;
+                        };
                         backend.update(made.compiled.clone(), changes)
                     }
                     Next::Lost(error) => Err(error),
@@ -317,6 +324,10 @@ impl<'a> Run<'a> {
             }
             return self.save(engine);
         }
+        if self.spp > 0 && (before.look != wanted.look || before.layer != wanted.layer) {
+            // What there is, before the next samples have taken their time.
+            self.show(engine, 0.0)?;
+        }
         self.pass(engine)?;
         self.save(engine)
     }
@@ -355,7 +366,8 @@ impl<'a> Run<'a> {
             scale: self.scale,
             ..FrameStats::default()
         };
-        if self.scale == 1 && self.spp.is_power_of_two() && self.spp >= LEAST_FOR_ERROR {
+        let doubled = (self.spp - count).checked_ilog2() != self.spp.checked_ilog2();
+        if self.scale == 1 && doubled && self.spp >= LEAST_FOR_ERROR {
             self.stats.error = self.estimator.look(self.canvas.film()?, self.spp);
         }
         self.show(engine, seconds)

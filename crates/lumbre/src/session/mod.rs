@@ -113,10 +113,14 @@ impl Session {
     /// # Panics
     /// If the system has no room for a thread.
     pub fn pick(&self, at: [f32; 2]) {
-        let (scene, camera): (_, Camera) = (self.shared.drawn().clone(), self.shared.state().wanted.camera);
+        let scene = self.shared.drawn().clone();
+        let (camera, settings): (Camera, _) = {
+            let state = self.shared.state();
+            (state.wanted.camera, state.wanted.settings)
+        };
         let sink = self.sink.clone();
         let work = move || {
-            let found = scene.and_then(|scene| pick::pick(&scene, &camera, at));
+            let found = scene.and_then(|scene| pick::pick(&scene, &camera, &settings, at));
             sink.event(Event::Picked(found));
         };
         std::thread::Builder::new()

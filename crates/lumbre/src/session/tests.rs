@@ -259,6 +259,20 @@ fn what_stands_there_is_found() {
     s.session.pick([0.01, 0.5]);
     let Event::Picked(nothing) = s.event(|e| matches!(e, Event::Picked(_))) else { unreachable!() };
     assert_eq!(nothing, None);
+    // From behind, where the camera sees nothing of it unless it is told to.
+    let (mut behind, mut one_sided) = (wanted(), scene());
+    one_sided.materials[0].double_sided = false;
+    behind.scene = Arc::new(one_sided);
+    behind.camera.origin.z = -4.0;
+    (behind.camera.forward, behind.camera.right) = (-behind.camera.forward, -behind.camera.right);
+    for shade_back_faces in [false, true] {
+        behind.settings.shade_back_faces = shade_back_faces;
+        let number = s.session.set(behind.clone());
+        s.frame(|f| f.number >= number);
+        s.session.pick([0.5, 0.5]);
+        let Event::Picked(found) = s.event(|e| matches!(e, Event::Picked(_))) else { unreachable!() };
+        assert_eq!(found.is_some(), shade_back_faces);
+    }
 }
 
 #[test]

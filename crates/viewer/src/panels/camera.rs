@@ -5,7 +5,7 @@ use crate::command::Command;
 use crate::input::{Action, keys_of};
 use crate::state::State;
 use eframe::egui::{ComboBox, Grid, Slider, Ui};
-use lumbre::edits::{Item, Value};
+use lumbre::edits::Item;
 
 pub(super) fn show(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
     Grid::new("camera").num_columns(2).spacing([8.0, 5.0]).min_col_width(104.0).show(ui, |ui| {
@@ -47,10 +47,7 @@ fn of_file(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
         return ui.end_row();
     }
     let changes = &document.edits.camera;
-    let chosen = match changes.get("camera") {
-        Some(Value::Text(text)) => text.parse().unwrap_or(0),
-        _ => 0usize,
-    };
+    let chosen = document.camera();
     let walked = changes.get("eye").is_some();
     let text = names.get(chosen).map_or("", String::as_str);
     let text = if walked { format!("from {text}") } else { text.to_owned() };

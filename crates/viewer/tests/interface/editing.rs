@@ -143,3 +143,19 @@ fn settings_begin_anew_and_pace_does_not() {
     window.press(Modifiers::NONE, Key::N);
     assert_eq!(window.fake.wanted().settings.max_depth, Some(3));
 }
+
+#[test]
+fn what_has_not_come_to_rest_is_undone_first() {
+    let mut window = Window::with("cornell.glb");
+    let depth = |w: &Window| w.fake.wanted().settings.max_depth;
+    let first = depth(&window);
+    window.state_mut().set(Item::Settings, "maxDepth", Value::Whole(3));
+    window.rest();
+    window.state_mut().set(Item::Settings, "maxDepth", Value::Whole(5));
+    window.state_mut().stir();
+    window.steps(1);
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(depth(&window), Some(3));
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(depth(&window), first);
+}

@@ -201,3 +201,17 @@ fn edits_that_are_not_saved_are_not_lost() {
     window
         .until("the scene", |w| w.state().document.as_ref().is_some_and(|d| d.path == asset("cornell.glb")));
 }
+
+#[test]
+fn edits_that_do_not_fit_take_no_file_for_theirs() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = r#"{"lumbreEdits": 1, "camera": {"fov": 20}, "sky": {"kind": "file", "file": "gone.hdr"}}"#;
+    let path = write(folder.path(), "sky.edits.json", text);
+    let mut window = Window::with("cornell.glb");
+    let camera = window.fake.wanted().camera;
+    window.state_mut().loader.open(&path);
+    window.until("an error", |w| w.state().log.pending().is_some());
+    window.steps(3);
+    assert!(window.state().edits_file.is_none() && !window.state().is_unsaved());
+    assert_eq!(window.fake.wanted().camera, camera);
+}
