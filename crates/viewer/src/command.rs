@@ -408,6 +408,23 @@ impl State {
         }
     }
 
+    /// The edits that were opened are shown, unless something of them is still being read.
+    pub fn accept_edits(&mut self) {
+        let Some(document) = &mut self.document else { return };
+        if let Some((path, _)) = self.arriving.take_if(|_| document.is_settled()) {
+            document.mark_saved();
+            self.log.note(format!("{} opened", path.display()));
+            self.edits_file = Some(path);
+        }
+    }
+
+    /// They do not fit: the camera goes back too.
+    pub fn refuse_edits(&mut self) {
+        if let (Some((_, camera)), Some(document)) = (self.arriving.take(), &mut self.document) {
+            document.edits.camera = camera;
+        }
+    }
+
     /// Files that were dropped on the window.
     pub fn dropped(&mut self, paths: Vec<PathBuf>) {
         let scenes = paths.iter().filter(|p| FileKind::of(p) == FileKind::Scene);
