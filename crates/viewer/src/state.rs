@@ -201,15 +201,13 @@ impl State {
         }
         let path = opened.path.clone();
         let document = match self.document.take() {
-            Some(old) if again => {
-                // What was shown before it changed, should it be broken now.
-                self.document = None;
-                old.reloaded(opened)
-            }
+            Some(old) if again => old.reloaded(opened),
             old => {
                 self.before = old;
                 self.selection = Selection::default();
                 self.edits_file = None;
+                // They were for the scene before this one.
+                self.arriving = None;
                 Document::new(opened)
             }
         };
