@@ -49,8 +49,10 @@ fn the_gpu_draws_what_the_cpu_draws() {
     }
     let dir = folder();
     let run = draw(dir.path(), "gpu.exr", "--device gpu --spp 64 --stats --validation", &[]).exits(0);
-    let run =
-        run.says("(as --device asks)").says("GPU ms of `trace + shade`").does_not_say("warning: validation:");
+    let run = run
+        .says("(as --device asks)")
+        .says("GPU ms of `trace + shadow`")
+        .does_not_say("warning: validation:");
     assert!(!run.stderr.contains("device: CPU ("), "{}", run.stderr);
     draw(dir.path(), "cpu.exr", "--device cpu --spp 64", &[]).exits(0).does_not_say("GPU ms");
     assert_eq!(samples(dir.path(), "gpu.exr"), 64.0);
@@ -141,7 +143,7 @@ fn frames_of_the_gpu_have_its_own_times() {
     c.args(["bench", "path", SMOOTH, "--device", "gpu", "--json", "--sizes", "16x12", "--depths", "3"]);
     let line = Run::from(c.args(["--frames", "2", "--warm-up", "1"]).output().unwrap()).exits(0).last_json();
     let row = &line["rows"][0];
-    assert!(row["gpu_ms"]["trace + shade"].as_f64().is_some_and(|ms| ms > 0.0), "{row}");
+    assert!(row["gpu_ms"]["trace + shadow"].as_f64().is_some_and(|ms| ms > 0.0), "{row}");
     // The same paths as on the CPU, though not of the same pixels.
     let cpu = lumbre(&format!("bench path {SMOOTH} --json --sizes 16x12 --depths 3 --frames 2")).exits(0);
     let length = |row: &serde_json::Value| row["path_length"].as_f64().unwrap();

@@ -60,14 +60,19 @@ void main() {
         Answer a;
         a.radiance = environment_radiance(light, d);
         a.pdf = environment_pdf(light, d);
-        a.wi = vec3(0.0);
-        a.sample_pdf = 0.0;
-        a.found = uint(environment_sample(light, u, a.wi, a.sample_pdf));
-        CdfSample row = CdfSample(0u, 0.0, 0.0);
-        a.found_row = uint(sample_cdf(light.row_cdf, 0u, light.height, u.y, row));
-        a.row = row.index;
-        a.probability = row.probability;
-        a.remainder = row.remainder;
+        // Where nothing is found, what is returned beside is undefined.
+        vec3 wi;
+        float sample_pdf;
+        bool found = environment_sample(light, u, wi, sample_pdf);
+        a.found = uint(found);
+        a.wi = found ? wi : vec3(0.0);
+        a.sample_pdf = found ? sample_pdf : 0.0;
+        CdfSample row;
+        bool found_row = sample_cdf(light.row_cdf, 0u, light.height, u.y, row);
+        a.found_row = uint(found_row);
+        a.row = found_row ? row.index : 0u;
+        a.probability = found_row ? row.probability : 0.0;
+        a.remainder = found_row ? row.remainder : 0.0;
         push.outputs.at[i].answers[k] = a;
     }
 }

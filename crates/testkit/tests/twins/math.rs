@@ -118,7 +118,7 @@ fn other_arguments_are_found() {
 }
 
 /// What a device may round otherwise is another number then, and only that: sines have neither quotients nor roots, and tangents
-/// end with a quotient.
+/// end with a quotient. (Not on a card: see `each_way`.)
 #[test]
 fn least_precision_moves_quotients() {
     let inputs = inputs();

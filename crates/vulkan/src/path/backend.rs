@@ -104,8 +104,7 @@ struct Shot {
     /// What its pipelines are specialised for.
     constants: Specialisation,
     passes: Arc<Passes>,
-    /// Of each half.
-    push: [Push; 2],
+    push: Push,
     /// Steps of one submission, and whether paths cannot take more.
     steps: u32,
     complete: bool,
@@ -130,18 +129,14 @@ struct Rays {
 }
 
 impl Shot {
-    /// Rays of a slice in so many parts whose last submission left these heads.
-    fn rays(&self, slice: &Slice, heads: &[QueueHeads]) -> Rays {
+    /// Rays of a slice whose last submission left these heads.
+    fn rays(&self, slice: &Slice, heads: &QueueHeads) -> Rays {
         // Those of the last step have not been counted yet.
         let list = queue::SHADOW + 2 * (1 - self.steps % 2);
-        let last =
-            |h: &QueueHeads| -> u64 { (list..list + 2).map(|l| u64::from(h.at[l as usize].count)).sum() };
+        let last: u64 = (list..list + 2).map(|l| u64::from(heads.at[l as usize].count)).sum();
         // Blocks that reach outside have places in the first list, but no rays.
         let outside = slice.paths() - slice.count();
-        Rays {
-            path: heads.iter().map(|h| u64::from(h.path_rays)).sum::<u64>() - outside,
-            shadow: heads.iter().map(|h| u64::from(h.shadow_rays) + last(h)).sum(),
-        }
+        Rays { path: u64::from(heads.path_rays) - outside, shadow: u64::from(heads.shadow_rays) + last }
     }
 }
 
@@ -276,7 +271,7 @@ impl VulkanBackend {
             let Some((slice, ends)) = i.checked_sub(1).and_then(|i| slices.get(i)) else { continue };
             let (flight, before) = (&flights[(i - 1) % 2], pending.pop_front());
             before.expect("one slice for each turn").noted(flight, &mut frames.passes)?;
-            let (rays, now) = (self.rays(&work, &shot, slice, flight), Instant::now());
+            let (rays, now) = (shot.rays(slice, &flight.heads.read()), Instant::now());
             frames.progress.rays += rays.path + rays.shadow;
             *frames.path_rays.get_or_insert_default() += rays.path;
             if *ends {
@@ -313,12 +308,6 @@ impl VulkanBackend {
         Ok(Flight { timer: Timer::new(&self.gpu, stamps)?, heads: HeadsReadback::new(&self.gpu)? })
     }
 
-    /// Rays of a slice that was waited for.
-    fn rays(&self, work: &Work, shot: &Shot, slice: &Slice, flight: &Flight) -> Rays {
-        let parts = work.paths.as_ref().expect("the shot made them").halves(slice).len();
-        shot.rays(slice, &flight.heads.read()[..parts])
-    }
-
     /// Submits the beginning of a slice, or further steps of its paths.
     fn submit(
         &self,
@@ -329,10 +318,10 @@ impl VulkanBackend {
     ) -> Result<Submitted, VulkanError> {
         let paths = work.paths.as_ref().expect("the shot made them");
         assert!(slice.paths() <= paths.capacity().into(), "{slice:?} has no room");
-        let parts = shot.of(&paths.halves(slice));
+        let push = shot.of(slice);
         let mut names = Vec::new();
         let pending = self.gpu.submit("path tracing", |commands| {
-            names = shot.passes.record(commands, paths, &flight.timer, (&parts, shot.extent(begins)));
+            names = shot.passes.record(commands, paths, &flight.timer, (&push, shot.extent(begins)));
             shot.passes.copy_heads(commands, paths, &flight.heads);
             Ok(())
         })?;
@@ -349,27 +338,25 @@ impl VulkanBackend {
         (slice, control): (&Slice, &dyn Control),
     ) -> Result<Option<Rays>, VulkanError> {
         if shot.complete {
-            return Ok(Some(self.rays(work, shot, slice, first)));
+            return Ok(Some(shot.rays(slice, &first.heads.read())));
         }
-        let parts = work.paths.as_ref().expect("the shot made them").halves(slice);
         let flight = self.flight(shot, false)?;
-        let mut last = first;
-        let goes_on = |heads: &QueueHeads| heads.at[queue::PATHS as usize].count > 0;
-        while last.heads.read()[..parts.len()].iter().any(goes_on) {
+        let mut heads = first.heads.read();
+        while heads.at[queue::PATHS as usize].count > 0 {
             if control.cancelled() {
                 return Ok(None);
             }
             self.submit(work, shot, &flight, (slice, false))?.noted(&flight, &mut work.times)?;
-            last = &flight;
+            heads = flight.heads.read();
         }
         let paths = work.paths.as_ref().expect("the shot made them");
         let extent = Extent { begins: false, steps: 0, ends: true };
         let timer = Timer::new(&self.gpu, shot.passes.stamps(extent))?;
         self.gpu.run("gathering paths", |commands| {
-            shot.passes.record(commands, paths, &timer, (&shot.of(&parts), extent));
+            shot.passes.record(commands, paths, &timer, (&shot.of(slice), extent));
             Ok(())
         })?;
-        Ok(Some(self.rays(work, shot, slice, last)))
+        Ok(Some(shot.rays(slice, &heads)))
     }
 
     /// The film that the backend keeps for renders, empty, with room for one like this.
@@ -401,21 +388,21 @@ impl VulkanBackend {
             Some((at, media)) if at == eye => media,
             _ => work.media.insert((eye, self.solids.around(eye))).1,
         };
-        let tables = self.view_tables(view, target, work.paths.as_ref().expect("made above"), &media);
+        let table = self.view_table(view, target, work.paths.as_ref().expect("made above"), &media);
         let mut upload = Upload::new(&self.gpu);
-        let table = Buffer::with_content(&mut upload, "view", bytemuck::cast_slice(&tables))?;
+        let table = Buffer::with_content(&mut upload, "view", bytemuck::bytes_of(&table))?;
         upload.finish()?;
-        let push = [0, 1].map(|half| Push {
+        let push = Push {
             tables: self.tables.address(),
             scene: self.scene.address(),
-            view: table.address() + half * size_of::<ViewTable>() as u64,
+            view: table.address(),
             first_pixel: [0, 0],
             size: [0, 0],
             first_sample: 0,
             sample_count: 0,
             parity: 0,
             group: 0,
-        });
+        };
         let steps = max_depth(&view.settings) + 1;
         let complete = steps <= MOST_STEPS && !needs.catchers;
         // Even: each submission finds the paths in the first list. A catcher takes a step of its own.
@@ -434,17 +421,11 @@ impl VulkanBackend {
         }
     }
 
-    /// Of each half.
-    fn view_tables(
-        &self,
-        view: &View,
-        target: &Target,
-        paths: &Paths,
-        media: &MediumStack,
-    ) -> [ViewTable; 2] {
+    fn view_table(&self, view: &View, target: &Target, paths: &Paths, media: &MediumStack) -> ViewTable {
         let settings = &view.settings;
         let Target { picture, crop, film: [film, non_finite] } = *target;
-        paths.addresses().map(|[state, queues, heads]| ViewTable {
+        let [state, queues, heads] = paths.addresses();
+        ViewTable {
             film,
             non_finite,
             state,
@@ -464,7 +445,7 @@ impl VulkanBackend {
             unused: 0,
             camera: (&view.camera).into(),
             media: media.into(),
-        })
+        }
     }
 
     /// The pipelines for these settings, made if there are none yet.
@@ -495,16 +476,15 @@ impl VulkanBackend {
 }
 
 impl Shot {
-    /// The parts of a slice, one or two.
-    fn of(&self, parts: &[Slice]) -> Vec<Push> {
-        let part = |(push, slice): (&Push, &Slice)| Push {
+    /// For a slice.
+    fn of(&self, slice: &Slice) -> Push {
+        Push {
             first_pixel: slice.first_pixel,
             size: slice.size,
             first_sample: slice.samples.start,
             sample_count: slice.samples.len() as u32,
-            ..*push
-        };
-        self.push.iter().zip(parts).map(part).collect()
+            ..self.push
+        }
     }
 
     /// What a submission does.

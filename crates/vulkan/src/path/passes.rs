@@ -5,9 +5,6 @@
 //! event before; shade, beside it glass; catch. At the end shadow, glass, gather
 //! ```
 //!
-//! The left half of a slice's columns is a step ahead of the right one, so that while one half traces the other shades: the few long rays
-//! that a launch ends with leave the device to others' shading.
-//!
 //! One ray generation shader that follows a path to its end, as the theses have it, was the first form of this: simple, and slow where rays
 //! are traced in software. On an H100 the pool at 1280x720 and depth 4 took 36.8 ms a frame (92 Mrays/s, of 1300 that a bare loop reaches there).
 //! The first surface took 5.2 ms, the second step 4.7, each further one 7 to 11 although few paths were left (0.36, 0.23 and 0.05 of the pixels): a warp
@@ -16,7 +13,6 @@
 //! Considered Harmful".)
 
 use super::code::{Code, Kinds};
-use super::slices::Slice;
 use super::variant::Needs;
 use crate::compute::ComputePipeline;
 use crate::{
@@ -43,8 +39,7 @@ pub(super) struct Paths {
     short: bool,
     state: Buffer,
     queues: Buffer,
-    /// Of each half.
-    heads: [Buffer; 2],
+    heads: Buffer,
 }
 
 impl Paths {
@@ -54,14 +49,13 @@ impl Paths {
     /// If memory is out.
     pub(super) fn new(gpu: &Gpu, paths: u64, solids: bool) -> Result<Self, VulkanError> {
         let quads = STATE_QUADS[usize::from(solids)];
-        let heads = || Buffer::new(gpu, "lengths of lists", size_of::<QueueHeads>() as u64, Purpose::Data);
         Ok(Paths {
             capacity: paths as u32,
             solids,
             short: false,
             state: Buffer::new(gpu, "paths under way", paths * quads * 16, Purpose::Data)?,
             queues: Buffer::new(gpu, "lists of paths", paths * QUEUES as u64 * 4, Purpose::Data)?,
-            heads: [heads()?, heads()?],
+            heads: Buffer::new(gpu, "lengths of lists", size_of::<QueueHeads>() as u64, Purpose::Data)?,
         })
     }
 
@@ -81,34 +75,10 @@ impl Paths {
         self.capacity
     }
 
-    /// Addresses of state, lists and heads, of each half: the second's places begin in the middle. A slice that is not halved has all
-    /// places of the first.
-    pub(super) fn addresses(&self) -> [[u64; 3]; 2] {
-        let middle = u64::from(self.capacity) / 2;
-        let half = |i: u64| {
-            let (state, queues) =
-                (self.state.address() + i * middle * 16, self.queues.address() + i * middle * 4);
-            [state, queues, self.heads[i as usize].address()]
-        };
-        [half(0), half(1)]
+    /// Addresses of state, lists and heads.
+    pub(super) fn addresses(&self) -> [u64; 3] {
+        [self.state.address(), self.queues.address(), self.heads.address()]
     }
-
-    /// The halves of a slice, or the whole where it has too few columns.
-    pub(super) fn halves(&self, slice: &Slice) -> Vec<Slice> {
-        halves(slice, u64::from(self.capacity) / 2)
-    }
-}
-
-/// Left and right half of a slice if they have the room each; else the whole.
-fn halves(slice: &Slice, room: u64) -> Vec<Slice> {
-    let ([x, y], [width, height]) = (slice.first_pixel, slice.size);
-    let left = width.div_ceil(2).next_multiple_of(BLOCK[0]);
-    let part =
-        |x, width| Slice { first_pixel: [x, y], size: [width, height], samples: slice.samples.clone() };
-    if left >= width || part(x, left).paths() > room {
-        return vec![slice.clone()];
-    }
-    vec![part(x, left), part(x + left, width - left)]
 }
 
 /// Paths of one sample of so many pixels.
@@ -117,7 +87,7 @@ pub(super) fn paths_per_sample([width, height]: [u32; 2]) -> u64 {
     blocks(width, BLOCK[0]) * blocks(height, BLOCK[1])
 }
 
-/// Where the host reads the heads of the lists of both halves.
+/// Where the host reads the heads of the lists.
 pub(super) struct HeadsReadback(Buffer);
 
 impl HeadsReadback {
@@ -125,15 +95,14 @@ impl HeadsReadback {
         Ok(HeadsReadback(Buffer::new(
             gpu,
             "lengths on the host",
-            2 * size_of::<QueueHeads>() as u64,
+            size_of::<QueueHeads>() as u64,
             Purpose::Readback,
         )?))
     }
 
-    /// Those of the submission that copied them here; the second are nothing where it had one part only.
-    pub(super) fn read(&self) -> [QueueHeads; 2] {
-        let both = self.0.read_as();
-        [both[0], both[1]]
+    /// Those of the submission that copied them here.
+    pub(super) fn read(&self) -> QueueHeads {
+        self.0.read_as()[0]
     }
 }
 
@@ -150,7 +119,7 @@ pub(super) struct Passes {
     gather: ComputePipeline,
 }
 
-/// What is done for a part between two barriers.
+/// What is done between two barriers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Generate,
@@ -170,45 +139,18 @@ enum Phase {
     Gather,
 }
 
-/// `a + b` for each of some words and each of the same words again.
-macro_rules! pairs {
-    ($($a:literal)*; $all:tt) => { [$(pairs!(@ $a $all)),*] };
-    (@ $a:literal [$($b:literal)*]) => { [$(concat!($a, " + ", $b)),*] };
-}
-
-/// Names of phases that run alone, with what runs beside them in the same half.
-const ALONE: [&str; 7] =
-    ["generate", "trace + shadow", "shade + glass", "catch", "last shadow", "last glass", "gather"];
-/// Names of phases of both halves that run at once.
-const TOGETHER: [[&str; 7]; 7] = pairs!(
-    "generate" "trace" "shade" "catch" "shadow" "glass" "gather";
-    ["generate" "trace" "shade" "catch" "shadow" "glass" "gather"]
-);
-
 impl Phase {
-    fn index(self) -> usize {
+    /// What the time between its barriers is called: what runs in it.
+    fn name(self) -> &'static str {
         match self {
-            Phase::Generate => 0,
-            Phase::Trace { .. } => 1,
-            Phase::Shade { .. } => 2,
-            Phase::Catch => 3,
-            Phase::Shadow => 4,
-            Phase::Glass => 5,
-            Phase::Gather => 6,
+            Phase::Generate => "generate",
+            Phase::Trace { .. } => "trace + shadow",
+            Phase::Shade { .. } => "shade + glass",
+            Phase::Catch => "catch",
+            Phase::Shadow => "last shadow",
+            Phase::Glass => "last glass",
+            Phase::Gather => "gather",
         }
-    }
-
-    fn traces(self) -> bool {
-        !matches!(self, Phase::Generate | Phase::Shade { .. } | Phase::Gather)
-    }
-}
-
-/// What the time between two barriers is called.
-fn name(phases: &[Phase]) -> &'static str {
-    match phases.iter().map(|p| p.index()).collect::<Vec<_>>()[..] {
-        [one] => ALONE[one],
-        [a, b] => TOGETHER[a.min(b)][a.max(b)],
-        _ => "nothing",
     }
 }
 
@@ -223,15 +165,15 @@ pub(super) struct Extent {
     pub(super) ends: bool,
 }
 
-/// A part of a slice in a recording.
-struct Part<'a> {
+/// A phase in a recording.
+struct Turn<'a> {
     commands: &'a Commands<'a>,
     push: Push,
     heads: &'a Buffer,
     most: u32,
 }
 
-impl Part<'_> {
+impl Turn<'_> {
     /// Where a list's length stands.
     fn head(&self, list: u32) -> (&Buffer, u64) {
         (self.heads, offset_of!(QueueHeads, at) as u64 + u64::from(list) * size_of::<QueueHead>() as u64)
@@ -279,7 +221,7 @@ impl Passes {
         (0..2).filter(|&g| self.needs.lights[g as usize])
     }
 
-    /// What is done for a part, one after another, each with the parity of its step.
+    /// What is done, one after another, each with the parity of its step.
     fn phases(&self, extent: Extent) -> Vec<(Phase, u32)> {
         let Extent { begins, steps, ends } = extent;
         let mut phases = Vec::new();
@@ -300,133 +242,96 @@ impl Passes {
         phases
     }
 
-    /// Stamps that a recording makes, at most.
+    /// Stamps that a recording makes.
     pub(super) fn stamps(&self, extent: Extent) -> usize {
-        self.phases(extent).len() + 2
+        self.phases(extent).len() + 1
     }
 
-    /// Records what is done for the parts of a slice, each as its push constants have it and a step behind the one before. Makes all stamps
-    /// of the timer; returns what is between them.
+    /// Records what is done for a slice. Makes all stamps of the timer; returns what is between them.
     pub(super) fn record(
         &self,
         commands: &Commands<'_>,
         paths: &Paths,
         timer: &Timer,
-        (parts, extent): (&[Push], Extent),
+        (push, extent): (&Push, Extent),
     ) -> Vec<&'static str> {
         timer.reset(commands);
         timer.stamp(commands, 0);
-        let phases = self.phases(extent);
+        let most = paths_per_sample(push.size) as u32 * push.sample_count;
         let mut names = Vec::new();
-        for i in 0..phases.len() + parts.len() - 1 {
-            let at = |(behind, push)| {
-                Some((i.checked_sub(behind).and_then(|i| phases.get(i))?, push, &paths.heads[behind]))
-            };
-            let mut now: Vec<_> = parts.iter().enumerate().filter_map(at).collect();
-            // Rays first: what is shaded beside them fills what they leave.
-            now.sort_by_key(|((phase, _), ..)| !phase.traces());
-            for ((phase, parity), push, heads) in &now {
-                let most = paths_per_sample(push.size) as u32 * push.sample_count;
-                let push = Push { parity: (push.parity + parity) % 2, ..**push };
-                self.phase(&mut Part { commands, push, heads, most }, *phase);
-            }
-            names.push(name(&now.iter().map(|((phase, _), ..)| *phase).collect::<Vec<_>>()));
+        for (phase, parity) in self.phases(extent) {
+            let push = Push { parity: (push.parity + parity) % 2, ..*push };
+            self.phase(&mut Turn { commands, push, heads: &paths.heads, most }, phase);
+            names.push(phase.name());
             timer.stamp(commands, names.len());
             commands.barrier();
         }
-        // Stamps that are never made would be waited for.
-        (names.len() + 1..timer.stamps()).for_each(|stamp| timer.stamp(commands, stamp));
         names
     }
 
-    fn phase(&self, part: &mut Part<'_>, phase: Phase) {
+    fn phase(&self, turn: &mut Turn<'_>, phase: Phase) {
         match phase {
-            Phase::Generate => self.generate(part),
+            Phase::Generate => self.generate(turn),
             Phase::Trace { after_another } => {
                 // It touches no list that is read here.
-                self.advance.dispatch(part.commands, bytes_of(&part.push), [1, 1]);
-                part.rays(&self.trace, queue::PATHS + part.push.parity);
+                self.advance.dispatch(turn.commands, bytes_of(&turn.push), [1, 1]);
+                turn.rays(&self.trace, queue::PATHS + turn.push.parity);
                 if after_another {
-                    self.shadows(part);
+                    self.shadows(turn);
                 }
             }
             Phase::Shade { after_another } => {
                 if after_another {
-                    self.glass(part);
+                    self.glass(turn);
                 }
-                let groups = (part.heads, offset_of!(QueueHeads, groups) as u64);
-                self.shade.dispatch_indirect(part.commands, bytes_of(&part.push), groups);
+                let groups = (turn.heads, offset_of!(QueueHeads, groups) as u64);
+                self.shade.dispatch_indirect(turn.commands, bytes_of(&turn.push), groups);
             }
-            Phase::Catch => self.catch.iter().for_each(|catch| part.rays(catch, queue::CATCHERS)),
-            Phase::Shadow => self.shadows(part),
-            Phase::Glass => self.glass(part),
+            Phase::Catch => self.catch.iter().for_each(|catch| turn.rays(catch, queue::CATCHERS)),
+            Phase::Shadow => self.shadows(turn),
+            Phase::Glass => self.glass(turn),
             Phase::Gather => {
-                let groups = (paths_per_sample(part.push.size) as u32).div_ceil(GROUP);
-                self.gather.dispatch(part.commands, bytes_of(&part.push), [groups, 1]);
+                let groups = (paths_per_sample(turn.push.size) as u32).div_ceil(GROUP);
+                self.gather.dispatch(turn.commands, bytes_of(&turn.push), [groups, 1]);
             }
         }
     }
 
-    fn generate(&self, part: &Part<'_>) {
+    fn generate(&self, turn: &Turn<'_>) {
         let one = QueueHead { one_row: 1, one_layer: 1, ..QueueHead::default() };
         let mut heads = QueueHeads { at: [one; QUEUES], groups: [0, 1, 1], ..QueueHeads::default() };
-        heads.at[queue::PATHS as usize].count = part.most;
-        part.commands.update(part.heads, bytes_of(&heads));
-        self.generate.dispatch(part.commands, bytes_of(&part.push), [part.most.div_ceil(GROUP), 1]);
+        heads.at[queue::PATHS as usize].count = turn.most;
+        turn.commands.update(turn.heads, bytes_of(&heads));
+        self.generate.dispatch(turn.commands, bytes_of(&turn.push), [turn.most.div_ceil(GROUP), 1]);
     }
 
     /// The shadow rays of the step before this parity, to both groups of lights.
-    fn shadows(&self, part: &mut Part<'_>) {
+    fn shadows(&self, turn: &mut Turn<'_>) {
         if let Some(shadow) = &self.shadow {
-            self.for_lights(part, |p| p.rays(shadow, queue::SHADOW + 2 * p.push.parity + p.push.group));
+            self.for_lights(turn, |t| t.rays(shadow, queue::SHADOW + 2 * t.push.parity + t.push.group));
         }
     }
 
     /// Those of them that meet what lets light through.
-    fn glass(&self, part: &mut Part<'_>) {
+    fn glass(&self, turn: &mut Turn<'_>) {
         if let Some(glass) = &self.glass {
-            self.for_lights(part, |p| p.rays(glass, queue::GLASS + 2 * p.push.parity + p.push.group));
+            self.for_lights(turn, |t| t.rays(glass, queue::GLASS + 2 * t.push.parity + t.push.group));
         }
     }
 
     /// Launches for each group of lights, for the paths of the step before.
-    fn for_lights(&self, part: &mut Part<'_>, launch: impl Fn(&Part<'_>)) {
-        let parity = part.push.parity;
-        part.push.parity = 1 - parity;
+    fn for_lights(&self, turn: &mut Turn<'_>, launch: impl Fn(&Turn<'_>)) {
+        let parity = turn.push.parity;
+        turn.push.parity = 1 - parity;
         for group in self.groups() {
-            part.push.group = group;
-            launch(part);
+            turn.push.group = group;
+            launch(turn);
         }
-        part.push.parity = parity;
+        turn.push.parity = parity;
     }
 
     /// Copies the heads to the host.
     pub(super) fn copy_heads(&self, commands: &Commands<'_>, paths: &Paths, to: &HeadsReadback) {
-        let size = size_of::<QueueHeads>() as u64;
-        for (i, heads) in (0..).zip(&paths.heads) {
-            commands.copy((heads, 0), (&to.0, i * size), size);
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn halves_are_the_whole() {
-        let slice = |first_pixel, size| Slice { first_pixel, size, samples: 3..5 };
-        for (size, lefts) in [([1280, 720], 640), ([9, 5], 8), ([24, 1], 16), ([100, 30], 56)] {
-            let whole = slice([7, 3], size);
-            let parts = halves(&whole, 1 << 30);
-            assert_eq!(
-                parts,
-                [slice([7, 3], [lefts, size[1]]), slice([7 + lefts, 3], [size[0] - lefts, size[1]])]
-            );
-            assert_eq!(parts.iter().map(Slice::paths).sum::<u64>(), whole.paths());
-            assert_eq!(halves(&whole, parts[0].paths()).len(), 2);
-            assert_eq!(halves(&whole, parts[0].paths() - 1), [whole]);
-        }
-        assert_eq!(halves(&slice([0, 0], [8, 50]), 1 << 30).len(), 1, "a single column of blocks");
+        commands.copy((&paths.heads, 0), (&to.0, 0), size_of::<QueueHeads>() as u64);
     }
 }

@@ -95,12 +95,11 @@ impl VulkanBackend {
             return Err(VulkanError::TooLarge { what: "paths".to_owned(), needed, limit });
         }
         let slice = Slice { first_pixel: [0, 0], size, samples: 0..1 };
-        // Not in halves: the rays of a step are in one list.
-        let push = shot.of(std::slice::from_ref(&slice))[0];
+        let push = shot.of(&slice);
         let collector = Collector::new(self, &shot, needed as u32)?;
         self.gpu.run("beginning paths", |commands| {
             let extent = Extent { begins: true, steps: 0, ends: false };
-            shot.passes.record(commands, paths, &collector.timer, (&[push], extent));
+            shot.passes.record(commands, paths, &collector.timer, (&push, extent));
             Ok(())
         })?;
         let mut own = OwnRays::default();
@@ -127,14 +126,14 @@ impl VulkanBackend {
         self.gpu.run("collecting rays", |commands| {
             collector.collect(commands, push, collect::PATHS);
             commands.barrier();
-            shot.passes.record(commands, paths, &collector.timer, (std::slice::from_ref(push), ONE_STEP));
+            shot.passes.record(commands, paths, &collector.timer, (push, ONE_STEP));
             [collect::FOUND, 0, 1].into_iter().for_each(|what| collector.collect(commands, push, what));
             shot.passes.copy_heads(commands, paths, &collector.heads);
             commands.barrier();
             collector.lists.iter().for_each(|list| list.copy(commands));
             Ok(())
         })?;
-        Ok(collector.heads.read()[0])
+        Ok(collector.heads.read())
     }
 
     /// Replays rays through this scene; surfaces that are there only in part are asked with the key of each ray.
