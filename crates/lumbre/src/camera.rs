@@ -80,6 +80,8 @@ pub struct CameraOptions {
     pub up: Option<Vec3>,
     /// Vertical field of view, radians. It makes an orthographic camera a perspective one.
     pub fov: Option<f32>,
+    /// Height of what an orthographic camera sees, metres; without meaning for perspective.
+    pub height: Option<f32>,
     /// How far the lens is open; `None`: as the scene says, which is closed for all formats that are read.
     pub aperture: Option<Aperture>,
     /// What is sharp, if there is an aperture.
@@ -191,7 +193,7 @@ pub fn find_camera(
 ) -> Result<FoundCamera, NoSuchCamera> {
     let cameras = placed(scene);
     let (base, framed) = match chosen(scene, &cameras, &options.choice)? {
-        Some(p) => (from_scene(p, options.fov, aspect), false),
+        Some(p) => (from_scene(p, options, aspect), false),
         None => (frame(compiled, options.fov.unwrap_or(DEFAULT_FOV), aspect), true),
     };
     let camera = with_lens(aimed(base, options), options);
@@ -200,7 +202,8 @@ pub fn find_camera(
 
 /// The authored camera. A picture wider than the author framed keeps the height of the view, a narrower one its width, so that
 /// nothing the author showed is cut off.
-fn from_scene(p: &Placed<'_>, fov: Option<f32>, aspect: f32) -> Camera {
+fn from_scene(p: &Placed<'_>, options: &CameraOptions, aspect: f32) -> Camera {
+    let fov = options.fov;
     let mut projection = match (fov, p.camera.projection) {
         (Some(fov), _) => Projection::perspective(fov),
         (None, Authored::Perspective { yfov, .. }) => Projection::perspective(yfov),
@@ -208,6 +211,9 @@ fn from_scene(p: &Placed<'_>, fov: Option<f32>, aspect: f32) -> Camera {
     };
     if let (Some(authored), None) = (framed_aspect(&p.camera.projection), fov) {
         projection = projection.scaled((authored / aspect).max(1.0));
+    }
+    if let (Projection::Orthographic { half_height }, Some(height)) = (&mut projection, options.height) {
+        *half_height = 0.5 * height;
     }
     let mut camera = Camera::from_transform(Affine3A::from_mat4(p.to_world), projection, aspect);
     camera.lens_radius = p.camera.lens_radius;

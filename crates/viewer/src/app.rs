@@ -6,7 +6,7 @@
 use crate::command::Command;
 use crate::document::Settled;
 use crate::input;
-use crate::open::Opened;
+use crate::open::{FileKind, Opened};
 use crate::panels;
 use crate::picture::{self, Picture};
 use crate::report::{Report, Step};
@@ -152,7 +152,7 @@ impl App {
             };
             self.state.stats = FrameStats { exposure_ev, ..frame.stats };
         }
-        news.events.into_iter().for_each(|event| self.state.happened(event));
+        news.events.into_iter().for_each(|event| self.state.happened(event, window));
         for opened in self.state.loader.take() {
             self.opened(opened, window);
         }
@@ -178,13 +178,16 @@ impl App {
         match opened {
             Opened::Scene(opened) => {
                 state.open(*opened, window);
-                if let Some(edits) = state.first_edits.take() {
-                    state.loader.open(&edits);
+                for path in std::mem::take(&mut state.with_scene) {
+                    state.loader.open(&path);
                 }
             }
             Opened::Failed { path, reason } => {
                 state.recent.remove(&path);
                 state.log.error(reason);
+                if FileKind::of(&path) == FileKind::Scene {
+                    state.with_scene.clear();
+                }
                 // A sky that cannot be read.
                 if let Some(document) = &mut state.document
                     && document.edits.sky_file().is_some_and(|file| file == path)
@@ -197,6 +200,8 @@ impl App {
                 notes.into_iter().for_each(|note| state.log.note(note));
                 state.use_environment(path, map);
             }
+            Opened::Written { path, edits } => state.edits_written(path, *edits, window),
+            Opened::NotWritten(reason) => state.edits_not_written(reason),
             Opened::Edits { path, edits } => match &mut state.document {
                 Some(document) => {
                     state.arriving = Some((path, document.edits.camera.clone()));
@@ -297,12 +302,7 @@ impl App {
         if let Some(mut dialog) = state.dialog.take() {
             match dialog.show(window, state.recent.paths()) {
                 None => state.dialog = Some(dialog),
-                Some(choice) => {
-                    let save = state.chosen(choice, window);
-                    if let (Some(path), Some(session)) = (save, &self.session) {
-                        session.save(path);
-                    }
-                }
+                Some(choice) => state.chosen(choice),
             }
         }
     }
@@ -376,8 +376,11 @@ impl App {
         self.ask();
     }
 
-    /// Asks what stands where the mouse clicked.
+    /// Asks what stands where the mouse clicked, and for a file of the picture.
     fn ask(&mut self) {
+        if let (Some(session), Some(path)) = (&self.session, self.state.picture_to_save.take()) {
+            session.save(path);
+        }
         if let Some(session) = &self.session
             && let Some(at) = self.state.picks.to_ask()
         {

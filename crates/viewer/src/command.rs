@@ -353,85 +353,36 @@ impl State {
         self.selection.item = None;
     }
 
-    fn copy_command(&mut self, window: &Context) {
-        match self.command_line() {
-            Some(line) => {
-                window.copy_text(line.clone());
-                self.log.note(format!("copied: {line}"));
-            }
-            None => {
-                self.log.note("the edits have to be saved first, so that the command can name their file");
-                self.ask_for_file(Purpose::SaveEdits, window);
-            }
-        }
-    }
-
-    /// What the file dialog ended with; a picture to save is the session's business.
-    pub fn chosen(&mut self, choice: Choice, window: &Context) -> Option<PathBuf> {
+    /// What the file dialog ended with.
+    pub fn chosen(&mut self, choice: Choice) {
         self.dialog = None;
-        let Choice::File(purpose, path) = choice else { return None };
+        let Choice::File(purpose, path) = choice else {
+            self.copies = false;
+            return;
+        };
         match purpose {
             Purpose::Open => self.open_file(path),
             Purpose::Environment => self.loader.open_environment(&path),
-            Purpose::SavePicture => {
-                self.picture_file = Some(path.clone());
-                return Some(path);
-            }
-            Purpose::SaveEdits => self.save_edits(path, window),
-        }
-        None
-    }
-
-    /// Writes the edits, and does what waited for that.
-    pub(crate) fn save_edits(&mut self, path: PathBuf, window: &Context) {
-        let Some(mut edits) = self.document.as_ref().map(|d| d.edits.clone()) else { return };
-        // What focuses by itself here would focus a little otherwise there.
-        if let (true, Some(metres), Some(document)) =
-            (self.focuses_by_itself(), self.auto_focus, &self.document)
-        {
-            let set = edits.set(&document.base, Item::Camera, "focus", Value::Number(metres));
-            debug_assert!(set.is_ok(), "{set:?}");
-        }
-        match edits.write(&path) {
-            Ok(()) => {
-                self.log.note(format!("saved {}", path.display()));
-                self.edits_file = Some(path);
-                if let Some(document) = &mut self.document {
-                    document.mark_saved();
-                }
-                self.leave_now(window);
-            }
-            Err(e) => {
-                self.log.error(e.to_string());
-                self.leaving = None;
-            }
-        }
-    }
-
-    /// The edits that were opened are shown, unless something of them is still being read.
-    pub fn accept_edits(&mut self) {
-        let Some(document) = &mut self.document else { return };
-        if let Some((path, _)) = self.arriving.take_if(|_| document.is_settled()) {
-            document.mark_saved();
-            self.log.note(format!("{} opened", path.display()));
-            self.edits_file = Some(path);
-        }
-    }
-
-    /// They do not fit: the camera goes back too.
-    pub fn refuse_edits(&mut self) {
-        if let (Some((_, camera)), Some(document)) = (self.arriving.take(), &mut self.document) {
-            document.edits.camera = camera;
+            Purpose::SavePicture => self.save_picture(path),
+            Purpose::SaveEdits => self.save_edits(path),
         }
     }
 
     /// Files that were dropped on the window.
     pub fn dropped(&mut self, paths: Vec<PathBuf>) {
-        let scenes = paths.iter().filter(|p| FileKind::of(p) == FileKind::Scene);
-        if scenes.count() > 1 {
+        let (scenes, others): (Vec<_>, Vec<_>) =
+            paths.into_iter().partition(|p| FileKind::of(p) == FileKind::Scene);
+        if scenes.len() > 1 {
             self.log.note("several scenes were dropped; the last one is opened");
         }
-        paths.into_iter().for_each(|path| self.open_file(path));
+        match scenes.into_iter().next_back() {
+            Some(scene) => {
+                // The others are for that one.
+                self.with_scene = others;
+                self.open_file(scene);
+            }
+            None => others.into_iter().for_each(|path| self.open_file(path)),
+        }
     }
 
     /// A place of the picture was clicked, 0 to 1 along each axis.

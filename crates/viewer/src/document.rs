@@ -6,16 +6,19 @@ use crate::history::History;
 use crate::open::OpenedScene;
 use crate::places::{MeshBounds, Places};
 use lumbre::camera::camera_names;
-use lumbre::edits::{Changes, Edits, Item, Value};
+use lumbre::edits::{Changes, Edits, Value};
 use lumbre::scene::{EnvironmentMap, Scene};
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A scene that is open.
+#[derive(Clone)]
 pub struct Document {
     /// Its file.
     pub path: PathBuf,
+    /// Flags of `lumbre render` by which it was read.
+    pub flags: Vec<String>,
     /// As the file says.
     pub base: Arc<Scene>,
     /// What was changed.
@@ -60,6 +63,7 @@ impl Document {
         edits.scene = name;
         Document {
             path: opened.path,
+            flags: opened.flags,
             cameras: camera_names(&opened.scene),
             scene: opened.scene.clone(),
             base: opened.scene,
@@ -74,11 +78,17 @@ impl Document {
         }
     }
 
-    /// The same after its file has changed: edits, steps and views stay.
-    pub fn reloaded(self, opened: OpenedScene) -> Self {
+    /// The same after its file has changed: edits, steps and views stay, but for edits of what is not there any more, which leave as a step that
+    /// can be undone once it is there again. Also why each left, a line.
+    pub fn reloaded(self, opened: OpenedScene) -> (Self, Vec<String>) {
         let fresh = Document::new(opened);
-        let Document { edits, history, views, maps, saved, .. } = self;
-        Document { edits, history, views, maps, saved, ..fresh }
+        let Document { mut edits, mut history, views, maps, saved, .. } = self;
+        history.observe(&undoable(&edits), false);
+        let gone = edits.fit(&fresh.base);
+        (
+            Document { edits, history, views, maps, saved, ..fresh },
+            gone.iter().map(ToString::to_string).collect(),
+        )
     }
 
     /// Opens edits in the place of those there are. They can be undone.
@@ -109,6 +119,11 @@ impl Document {
         self.saved = undoable(&self.edits);
     }
 
+    /// These edits are in a file; by now there may be others.
+    pub fn mark_saved_as(&mut self, edits: &Edits) {
+        self.saved = undoable(edits);
+    }
+
     /// Brings a map that was read from a file.
     pub fn know(&mut self, path: PathBuf, map: Arc<EnvironmentMap>) {
         self.maps.insert(path, map);
@@ -116,12 +131,12 @@ impl Document {
 
     /// Whether the scene is that of the edits.
     pub fn is_settled(&self) -> bool {
-        self.scene_part() == self.shown
+        self.edits.of_scene() == self.shown
     }
 
     /// Makes the scene anew where the edits ask for it.
     pub fn settle(&mut self) -> Settled {
-        let wanted = self.scene_part();
+        let wanted = self.edits.of_scene();
         if wanted == self.shown {
             return Settled::Same;
         }
@@ -144,18 +159,14 @@ impl Document {
         }
     }
 
-    /// Takes back what of the edits is not shown, as where a file cannot be read: to the last step if that is shown, else all of it.
+    /// Takes back what of the edits is not shown, as where a file cannot be read: to the last step if that is shown, else to the scene as it is
+    /// shown, with all that does not decide it.
     pub fn give_up(&mut self) {
         let step = self.history.now().clone();
-        let back = if part_of(&step, &self.base) == self.shown { step } else { self.shown.clone() };
+        let back = if step.of_scene() == self.shown { step } else { self.edits.with_scene_of(&self.shown) };
         let scene = self.edits.scene.clone();
         self.set_undoable(back);
         self.edits.scene = scene;
-    }
-
-    /// What of the edits decides the scene.
-    fn scene_part(&self) -> Edits {
-        part_of(&self.edits, &self.base)
     }
 
     /// Notes a step, unless something is still being dragged.
@@ -190,16 +201,4 @@ fn undoable(edits: &Edits) -> Edits {
     let mut edits = edits.clone();
     edits.camera = Changes::default();
     edits
-}
-
-fn part_of(edits: &Edits, base: &Scene) -> Edits {
-    let mut part = undoable(edits);
-    part.scene.clear();
-    part.bookmarks.clear();
-    for item in [Item::Settings, Item::Look] {
-        // These are there in every scene.
-        let reset = part.reset(base, item);
-        debug_assert!(reset.is_ok(), "{reset:?}");
-    }
-    part
 }

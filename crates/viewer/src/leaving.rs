@@ -52,7 +52,10 @@ impl State {
     /// The answer.
     pub fn leave(&mut self, how: Leave, window: &Context) {
         match how {
-            Leave::Stay => self.leaving = None,
+            Leave::Stay => {
+                self.leaving = None;
+                self.with_scene.clear();
+            }
             Leave::Discard => {
                 // A scene that cannot be opened leaves them as they are.
                 if let (Some(Leaving::Close), Some(document)) = (&self.leaving, &mut self.document) {
@@ -61,7 +64,7 @@ impl State {
                 self.leave_now(window);
             }
             Leave::Save => match self.edits_file.clone() {
-                Some(path) => self.save_edits(path, window),
+                Some(path) => self.save_edits(path),
                 None => self.ask_for_file(Purpose::SaveEdits, window),
             },
         }

@@ -39,6 +39,7 @@ pub mod picture;
 pub mod places;
 pub mod recent;
 pub mod report;
+mod saving;
 pub mod sink;
 pub mod state;
 pub mod theme;

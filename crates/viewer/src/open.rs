@@ -1,4 +1,4 @@
-//! Opening files on threads of their own: the window never waits for a disk or a parser. What was asked for last wins; what comes
+//! Opening files, and writing edits, on threads of their own: the window never waits for a disk or a parser. What was asked for last wins; what comes
 //! of it is taken by [`Loader::take`]. A file that cannot be opened changes nothing.
 
 use crate::places::{MeshBounds, mesh_bounds};
@@ -22,6 +22,8 @@ pub struct OpenedScene {
     pub scene: Arc<Scene>,
     /// Boxes of its meshes.
     pub meshes: MeshBounds,
+    /// Flags of `lumbre render` by which it was read.
+    pub flags: Vec<String>,
     /// What there is to say, a line each.
     pub notes: Vec<String>,
     /// The file had changed while it was shown.
@@ -48,6 +50,15 @@ pub enum Opened {
         /// Whether they fit the scene that is open is another matter.
         edits: Box<Edits>,
     },
+    /// Edits were written.
+    Written {
+        /// Their file.
+        path: PathBuf,
+        /// They.
+        edits: Box<Edits>,
+    },
+    /// Edits could not be written, one line; an older file is as it was.
+    NotWritten(String),
     /// It could not be opened: one line.
     Failed {
         /// The file.
@@ -87,7 +98,7 @@ impl FileKind {
     }
 }
 
-/// Opens files.
+/// Opens files and writes edits.
 pub struct Loader {
     options: LoadOptions,
     send: Sender<(u64, Opened)>,
@@ -146,6 +157,16 @@ impl Loader {
         }
         self.last_scene = self.count + 1;
         self.start(path, move |path| load(path, &options, again));
+    }
+
+    /// Writes edits.
+    pub fn write_edits(&mut self, path: PathBuf, edits: Edits) {
+        self.start(&path, move |path| {
+            Ok(match edits.write(path) {
+                Ok(()) => Opened::Written { path: path.into(), edits: Box::new(edits) },
+                Err(e) => Opened::NotWritten(e.to_string()),
+            })
+        });
     }
 
     /// Opens a picture of the surroundings.
@@ -212,6 +233,7 @@ fn load(path: &Path, options: &LoadOptions, again: bool) -> Result<Opened, Strin
         path: path.into(),
         scene: Arc::new(scene),
         meshes,
+        flags: crate::saving::flags(options),
         notes,
         again,
     })))

@@ -20,7 +20,7 @@ use lumbre::scene::{CompiledScene, EnvironmentMap, MaterialId, NodeId, Scene};
 use lumbre::session::{Event, FrameStats, Layer, Picked, ViewLook, Wanted};
 use lumbre::{Device, LoadOptions, Look};
 use std::cell::RefCell;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 
@@ -72,6 +72,13 @@ pub struct Selection {
     pub material: Option<MaterialId>,
 }
 
+/// A scene that another has taken the place of, and the file of its edits.
+struct Before {
+    document: Document,
+    edits_file: Option<PathBuf>,
+    filed: Option<Edits>,
+}
+
 /// Which parts of the window are shown.
 #[derive(Clone, Debug, Default)]
 pub struct Shown {
@@ -97,8 +104,6 @@ pub struct State {
     pub size: [u32; 2],
     /// Distance of what is looked at, metres, where the camera does not say it.
     reach: f32,
-    /// Factor on the height of a picture of parallel rays.
-    parallel_zoom: f32,
     /// What lies in the centre of the picture, metres along the direction of view.
     pub auto_focus: Option<f32>,
     /// The next click says what is sharp.
@@ -132,14 +137,20 @@ pub struct State {
     pub leaving: Option<Leaving>,
     /// Where edits were saved, or read.
     pub edits_file: Option<PathBuf>,
+    /// What that file holds.
+    pub(crate) filed: Option<Edits>,
+    /// The command is to be copied once the edits are written.
+    pub(crate) copies: bool,
     /// Where pictures are saved.
     pub picture_file: Option<PathBuf>,
-    /// Edits that are to be opened with the first scene.
-    pub first_edits: Option<PathBuf>,
+    /// Where the picture is to be saved, until the session is told.
+    pub(crate) picture_to_save: Option<PathBuf>,
+    /// Edits and surroundings that are to be opened once the scene is there that was asked for.
+    pub with_scene: Vec<PathBuf>,
     /// The file of edits that were opened, and the camera before them, until it is known that they fit.
     pub arriving: Option<(PathBuf, Changes)>,
-    /// The scene before the last one that was opened, until that is on the device.
-    pub before: Option<Document>,
+    /// What there was before the last scene that was opened, until that is on the device.
+    before: Option<Before>,
     /// Devices of this machine, once they are known.
     pub devices: Vec<(String, Device)>,
     /// The window is to fill the screen, or not to.
@@ -162,7 +173,6 @@ impl State {
             picks: Picks::default(),
             size: [0, 0],
             reach: 1.0,
-            parallel_zoom: 1.0,
             auto_focus: None,
             focus_by_click: false,
             speed: 1.0,
@@ -180,8 +190,11 @@ impl State {
             watch: None,
             leaving: None,
             edits_file: None,
+            filed: None,
+            copies: false,
             picture_file: None,
-            first_edits: None,
+            picture_to_save: None,
+            with_scene: Vec::new(),
             arriving: None,
             before: None,
             devices: Vec::new(),
@@ -200,12 +213,21 @@ impl State {
             self.recent.add(&opened.path);
         }
         let path = opened.path.clone();
-        let document = match self.document.take() {
-            Some(old) if again => old.reloaded(opened),
-            old => {
-                self.before = old;
+        let old = self.document.take();
+        self.before = old.clone().map(|document| Before {
+            document,
+            edits_file: self.edits_file.clone(),
+            filed: self.filed.clone(),
+        });
+        let document = match old {
+            Some(old) if again => {
+                let (document, gone) = old.reloaded(opened);
+                gone.into_iter().for_each(|line| self.log.error(format!("taken back: {line}")));
+                document
+            }
+            _ => {
                 self.selection = Selection::default();
-                self.edits_file = None;
+                (self.edits_file, self.filed, self.copies) = (None, None, false);
                 // They were for the scene before this one.
                 self.arriving = None;
                 Document::new(opened)
@@ -222,7 +244,6 @@ impl State {
 
     /// Sets the camera of a scene that was just opened: its own, or all of it in view.
     fn first_view(&mut self) {
-        self.parallel_zoom = 1.0;
         self.auto_focus = None;
         let Some(document) = &mut self.document else { return };
         if document.cameras.is_empty() {
@@ -263,9 +284,6 @@ impl State {
     pub fn camera(&self) -> Option<Camera> {
         let document = self.document.as_ref()?;
         let mut camera = self.found.get(document, aspect_of(self.size));
-        if let Projection::Orthographic { .. } = camera.projection {
-            camera.projection = camera.projection.scaled(self.parallel_zoom);
-        }
         if self.focuses_by_itself() {
             camera.focus_distance = self.auto_focus.unwrap_or(self.reach);
         }
@@ -299,15 +317,8 @@ impl State {
         self.stir();
         self.reach = pose.reach;
         let Some(document) = &mut self.document else { return };
-        match (before.camera.projection, pose.camera.projection) {
-            (
-                Projection::Orthographic { half_height: old },
-                Projection::Orthographic { half_height: new },
-            ) => {
-                self.parallel_zoom *= new / old;
-            }
-            (old, new) if old != new => write_fov(&mut document.edits, &document.base, new),
-            _ => {}
+        if before.camera.projection != pose.camera.projection {
+            write_extent(&mut document.edits, &document.base, pose.camera.projection);
         }
         write_pose(&mut document.edits, &document.base, &pose);
     }
@@ -393,7 +404,7 @@ impl State {
     }
 
     /// Something happened in the session.
-    pub fn happened(&mut self, event: Event) {
+    pub fn happened(&mut self, event: Event, window: &eframe::egui::Context) {
         match event {
             Event::Preparing(what) => self.preparing = Some(what),
             Event::Prepared { device, seconds } => {
@@ -405,20 +416,26 @@ impl State {
                 }
             }
             Event::Notice(text) => self.log.note(text),
-            Event::Failed(text) => self.failed(text),
+            Event::Failed(text) => self.failed(text, window),
             Event::Picked(found) => self.picked(found),
             Event::Saved(path) => self.log.note(format!("saved {}", path.display())),
         }
     }
 
     /// Something could not be done. A scene that could not be prepared gives way to the one before it.
-    fn failed(&mut self, text: String) {
+    fn failed(&mut self, text: String, window: &eframe::egui::Context) {
         if self.preparing.take().is_some()
-            && let Some(before) = self.before.take()
+            && let Some(Before { document, edits_file, filed }) = self.before.take()
         {
-            if let Some(broken) = self.document.replace(before) {
+            let path = document.path.clone();
+            if let Some(broken) = self.document.replace(document)
+                && broken.path != path
+            {
                 self.recent.remove(&broken.path);
+                // The file that is watched is the other one.
+                self.watch(self.watching, window);
             }
+            (self.edits_file, self.filed) = (edits_file, filed);
             self.measure_reach();
         }
         self.log.error(text);
@@ -495,19 +512,6 @@ impl State {
         let at = at.or_else(|| std::env::current_dir().ok()).unwrap_or_else(|| PathBuf::from("."));
         self.dialog = Some(Dialog::open(purpose, &at, window));
     }
-
-    /// The command that draws what is shown; `None` without a scene, or without edits that are saved.
-    pub fn command_line(&self) -> Option<String> {
-        let document = self.document.as_ref()?;
-        let edits = self.edits_file.as_ref()?;
-        let [width, height] = self.size;
-        Some(format!(
-            "lumbre render {} --edits {} --size {width}x{height} --spp {}",
-            quoted(&document.path),
-            quoted(edits),
-            self.running.limit
-        ))
-    }
 }
 
 /// Samples after which the preview rests.
@@ -575,20 +579,11 @@ fn write_pose(edits: &mut Edits, base: &Scene, pose: &Pose) {
     debug_assert!(done.is_ok() || !camera.origin.is_finite(), "{done:?}");
 }
 
-fn write_fov(edits: &mut Edits, base: &Scene, projection: Projection) {
-    if let Projection::Perspective { tan_half_fov_y } = projection {
-        let degrees = (2.0 * tan_half_fov_y.atan()).to_degrees();
-        let done = edits.set(base, Item::Camera, "fov", Value::Number(degrees));
-        debug_assert!(done.is_ok(), "{done:?}");
-    }
-}
-
-/// A path as a shell takes it.
-fn quoted(path: &Path) -> String {
-    let text = path.display().to_string();
-    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+,:=@%".contains(c);
-    if !text.is_empty() && text.chars().all(plain) {
-        return text;
-    }
-    format!("'{}'", text.replace('\'', "'\\''"))
+/// Writes how much of the scene the camera takes in; what is out of range is refused, and it stays.
+fn write_extent(edits: &mut Edits, base: &Scene, projection: Projection) {
+    let (name, value) = match projection {
+        Projection::Perspective { tan_half_fov_y } => ("fov", (2.0 * tan_half_fov_y.atan()).to_degrees()),
+        Projection::Orthographic { half_height } => ("height", 2.0 * half_height),
+    };
+    let _ = edits.set(base, Item::Camera, name, Value::Number(value));
 }

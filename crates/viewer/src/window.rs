@@ -88,7 +88,7 @@ fn begin(options: &Options) -> App {
     state.watching = options.watch;
     if let Some(scene) = &options.scene {
         state.loader.open_scene(scene, false);
-        state.first_edits.clone_from(&options.edits);
+        state.with_scene.extend(options.edits.clone());
     }
     let mut app = App::new(state, session(options.gpu));
     options.report.iter().for_each(|report| app.report(report.clone()));

@@ -11,6 +11,7 @@ use super::settings::{LOOK, LookEdits};
 use super::sky::{Heaven, SKY, SUN, Sunlight};
 use super::{Edits, EditsError};
 use lumbre_core::Camera;
+use lumbre_core::camera::Projection;
 use lumbre_scene::{EnvironmentMap, NodeId, Scene};
 use std::collections::BTreeMap;
 
@@ -82,7 +83,11 @@ impl Edits {
     /// As [`Edits::apply`].
     pub fn idle(&self, base: &Scene) -> Result<Vec<String>, EditsError> {
         let mut out = Vec::new();
-        let camera = Camera::look_at(glam::Vec3::ZERO, glam::Vec3::NEG_Z, glam::Vec3::Y, 1.0, 1.0);
+        let camera = Camera {
+            // Which kind it is stands in the scene: what means something to either is not idle.
+            projection: Projection::Orthographic { half_height: 1.0 },
+            ..Camera::look_at(glam::Vec3::ZERO, glam::Vec3::NEG_Z, glam::Vec3::Y, 1.0, 1.0)
+        };
         idle(&mut out, &under("", CAMERA_KEY), &self.camera, SHOT, Shot::from(&camera));
         idle(&mut out, &under("", SUN_KEY), &self.sun, SUN, Sunlight::from(base.environment.sun));
         // All of a node shows, but it must be there.

@@ -16,6 +16,9 @@ pub(super) struct Shot {
     target: Vec3,
     up: Vec3,
     fov_deg: f32,
+    /// Of what parallel rays see, metres.
+    height: f32,
+    is_parallel: bool,
     aperture: Value,
     focus: Value,
 }
@@ -27,6 +30,10 @@ impl From<&Camera> for Shot {
             Projection::Perspective { tan_half_fov_y } => 2.0 * atan2(tan_half_fov_y, 1.0).to_degrees(),
             Projection::Orthographic { .. } => crate::camera::DEFAULT_FOV.to_degrees(),
         };
+        let (height, is_parallel) = match camera.projection {
+            Projection::Perspective { .. } => (1.0, false),
+            Projection::Orthographic { half_height } => (2.0 * half_height, true),
+        };
         let open = camera.lens_radius > 0.0;
         Shot {
             camera: String::new(),
@@ -34,6 +41,8 @@ impl From<&Camera> for Shot {
             target: camera.origin + camera.forward * camera.focus_distance,
             up: camera.up,
             fov_deg,
+            height,
+            is_parallel,
             aperture: if open { Value::Number(2.0 * camera.lens_radius) } else { Value::Word("off") },
             focus: if open { Value::Number(camera.focus_distance) } else { Value::Word("auto") },
         }
@@ -59,6 +68,13 @@ pub(super) const SHOT: &[One] = &[
     One::new("target", "Looks at", POINT, field!(vector target)),
     One::new("up", "Up", Kind::Vector { unit: "", range: [-HUGE, HUGE] }, field!(vector up)),
     One::new("fov", "Field of view", number([0.001, 179.9], [5.0, 120.0], "°"), field!(number fov_deg)),
+    One::new(
+        "height",
+        "Height of the view",
+        Kind::Number { range: [1e-6, 1e9], slider: [0.1, 1e3], log: true, unit: "m", words: &[] },
+        field!(number height),
+    )
+    .when(|s| s.is_parallel),
     One::new(
         "aperture",
         "Aperture",
@@ -123,6 +139,7 @@ impl Changes {
             look_at: vector("target"),
             up: vector("up"),
             fov: self.get("fov").and_then(Value::as_number).map(f32::to_radians),
+            height: self.get("height").and_then(Value::as_number),
             aperture: self.get("aperture").map(|v| match v {
                 Value::FNumber(n) => Aperture::FNumber(*n),
                 other => Aperture::Diameter(other.as_number().unwrap_or(0.0)),

@@ -23,6 +23,7 @@ mod apply;
 mod camera;
 mod document;
 mod error;
+mod fit;
 mod item;
 mod json;
 mod lamp;
@@ -50,7 +51,7 @@ use std::collections::BTreeMap;
 pub struct Edits {
     /// Name of the scene's file, for people; may be empty.
     pub scene: String,
-    /// The camera: `camera` (of the file), `eye`, `target`, `up`, `fov`, `aperture`, `focus`.
+    /// The camera: `camera` (of the file), `eye`, `target`, `up`, `fov`, `height`, `aperture`, `focus`.
     pub camera: Changes,
     /// Cameras to come back to, each of another name.
     pub bookmarks: Vec<Named>,

@@ -82,7 +82,7 @@ impl Engine {
             let mut backend = self.prepare(&made)?;
             loop {
                 *self.shared.drawn() = Some(made.compiled.clone());
-                let updated = match self.frames(&*backend, &made)? {
+                let updated = match self.frames(&*backend, &mut made)? {
                     Next::Device => {
                         self.failed = None;
                         break;
@@ -206,7 +206,7 @@ impl Engine {
     }
 
     /// Frames of one scene on one device.
-    fn frames(&mut self, backend: &dyn Backend, made: &Made) -> Option<Next> {
+    fn frames(&mut self, backend: &dyn Backend, made: &mut Made) -> Option<Next> {
         // It may have come with the scene or the device that began this.
         self.show.look(self.wanted.look);
         let run = backend.canvas().and_then(|canvas| Run::new(backend, canvas, self));
@@ -226,7 +226,11 @@ impl Engine {
                 && !refused
                 && let Some((next, changes)) = self.compile(Some(made))
             {
-                return Some(Next::Scene(Box::new(next), changes));
+                if changes != Some(SceneChanges::default()) {
+                    return Some(Next::Scene(Box::new(next), changes));
+                }
+                // Nothing that is drawn: as where something hidden moves.
+                *made = next;
             }
             if let Err(e) = run.turn(self, &before) {
                 return Some(Next::Lost(e));
@@ -436,7 +440,13 @@ impl<'a> Run<'a> {
         if self.scale > 1 || self.spp == 0 {
             return Ok(());
         }
-        let paths = std::mem::take(&mut engine.shared.state().saves);
+        let mut state = engine.shared.state();
+        if state.number != state.taken {
+            // They may be of what was wanted since.
+            return Ok(());
+        }
+        let paths = std::mem::take(&mut state.saves);
+        drop(state);
         for path in paths {
             let film = self.canvas.film()?;
             let look = engine.look_of(film);

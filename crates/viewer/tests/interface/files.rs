@@ -4,6 +4,7 @@ use crate::kit::{Window, asset};
 use eframe::egui::{self, Key, Modifiers};
 use lumbre::edits::{Item, Value};
 use lumbre::session::Event;
+use lumbre_viewer::command::Command;
 use lumbre_viewer::dialog::{Choice, Purpose};
 use std::path::Path;
 use std::sync::Arc;
@@ -74,15 +75,25 @@ fn edits_are_saved_opened_and_named_by_a_command() {
     window.set_number("Roughness", 0.125);
     window.press(Modifiers::NONE, Key::F);
     window.rest();
-    let wanted = window.fake.wanted();
     window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     let choice = lumbre_viewer::dialog::Choice::File(lumbre_viewer::dialog::Purpose::SaveEdits, file.clone());
-    assert_eq!(window.state_mut().chosen(choice, &egui::Context::default()), None);
+    window.state_mut().chosen(choice);
+    window.until("a file", |w| w.state().edits_file.is_some());
     let line = window.state().command_line().unwrap();
     assert!(
         line.starts_with("lumbre render ") && line.contains(&format!("--edits '{}'", file.display())),
         "{line}"
     );
+    // It says what is shown, or nothing; to copy it writes the file anew.
+    window.press(Modifiers::NONE, Key::C);
+    window.rest();
+    window.state_mut().set(Item::Settings, "maxDepth", Value::Whole(3));
+    window.steps(2);
+    assert_eq!(window.state().command_line(), None);
+    window.state_mut().obey(Command::CopyCommand, &egui::Context::default());
+    window.until("the command", |w| w.state().command_line().is_some());
+    assert!(window.state().log.lines().iter().any(|l| l.text.starts_with("copied: lumbre render")));
+    let wanted = window.fake.wanted();
     // Another window, another day.
     let mut again = Window::with("cornell.glb");
     again.state_mut().loader.open(&file);
@@ -188,9 +199,9 @@ fn edits_that_are_not_saved_are_not_lost() {
     window.steps(2);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("kept.edits.json");
-    let context = egui::Context::default();
-    window.state_mut().chosen(Choice::File(Purpose::SaveEdits, path.clone()), &context);
-    assert!(path.exists() && window.state().leaving.is_none());
+    window.state_mut().chosen(Choice::File(Purpose::SaveEdits, path.clone()));
+    window.until("a file", |w| w.state().leaving.is_none());
+    assert!(path.exists());
     assert!(window.state_mut().may_close());
     // What is of no use is let go.
     window.state_mut().set(Item::Settings, "maxDepth", Value::Whole(4));
@@ -214,4 +225,107 @@ fn edits_that_do_not_fit_take_no_file_for_theirs() {
     window.steps(3);
     assert!(window.state().edits_file.is_none() && !window.state().is_unsaved());
     assert_eq!(window.fake.wanted().camera, camera);
+}
+
+/// A scene of two triangles with materials of these names.
+fn of_materials(folder: &Path, names: [&str; 2]) -> std::path::PathBuf {
+    write(folder, "a.mtl", &names.map(|n| format!("newmtl {n}\nKd 0.5 0.5 0.5\n")).concat());
+    let faces = names.map(|n| format!("usemtl {n}\nf 1 2 3\n")).concat();
+    write(folder, "a.obj", &format!("mtllib a.mtl\nv 0 0 0\nv 2 0 0\nv 0 1 0\n{faces}"))
+}
+
+#[test]
+fn what_a_changed_file_has_lost_takes_its_edits_along_and_no_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = of_materials(folder.path(), ["brick", "wood"]);
+    let mut window = Window::empty();
+    window.state_mut().watching = true;
+    window.open(&path);
+    for material in 0..2 {
+        let item = Item::Material(lumbre::scene::MaterialId(material));
+        window.state_mut().set(item, "roughness", Value::Number(0.125));
+    }
+    window.state_mut().set(Item::Settings, "maxDepth", Value::Whole(3));
+    window.press(Modifiers::COMMAND, Key::Num3);
+    window.rest();
+    std::thread::sleep(std::time::Duration::from_millis(600));
+    of_materials(folder.path(), ["wood", "slate"]);
+    // The file that is watched is the scene's.
+    std::fs::write(&path, std::fs::read_to_string(&path).unwrap() + "# again\n").unwrap();
+    let roughness = |w: &Window, name: &str| {
+        let scene = w.fake.wanted().scene;
+        scene.materials.iter().find(|m| m.name == name).map(|m| m.roughness)
+    };
+    window.until("the new file", |w| roughness(w, "slate").is_some());
+    window.rest();
+    assert_eq!(roughness(&window, "wood"), Some(0.125), "edits of what is there stay");
+    assert_ne!(roughness(&window, "slate"), Some(0.125));
+    assert_eq!(window.fake.wanted().settings.max_depth, Some(3));
+    assert_eq!(window.state().document.as_ref().unwrap().edits.bookmarks.len(), 1);
+    assert!(window.shows("brick"), "it is told what was taken back");
+    // A file that can be read and not be drawn leaves what there was.
+    let good = window.fake.wanted().scene;
+    window.fake.happens(Event::Prepared { device: "Stand-in".into(), seconds: 0.1 });
+    window.steps(1);
+    of_materials(folder.path(), ["wood", "glass"]);
+    std::fs::write(&path, std::fs::read_to_string(&path).unwrap() + "# once more\n").unwrap();
+    window.until("the next file", |w| roughness(w, "glass").is_some());
+    window.fake.happens(Event::Preparing("compiling the scene".into()));
+    window.fake.happens(Event::Failed("a.obj: too many triangles".into()));
+    window.steps(2);
+    assert!(Arc::ptr_eq(&good, &window.fake.wanted().scene));
+    assert_eq!(roughness(&window, "wood"), Some(0.125));
+}
+
+#[test]
+fn what_is_dropped_with_a_scene_is_for_that_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let edits = write(folder.path(), "e.json", r#"{"lumbreEdits": 1, "settings": {"maxDepth": 3}}"#);
+    let mut window = Window::with("cornell.glb");
+    window.state_mut().dropped(vec![edits, asset("smooth.gltf")]);
+    window.until("the edits", |w| w.state().edits_file.is_some());
+    window.rest();
+    assert_eq!(window.state().document.as_ref().unwrap().path, asset("smooth.gltf"));
+    assert_eq!(window.fake.wanted().settings.max_depth, Some(3));
+}
+
+#[test]
+fn a_picture_is_saved_where_something_else_is_rendered() {
+    use lumbre::session::Layer;
+    let mut window = Window::with("cornell.glb");
+    let settings = window.fake.wanted().settings;
+    window.state_mut().running.layer = Layer::Objects;
+    window.state_mut().running.preview = true;
+    window.steps(2);
+    assert_ne!(window.fake.wanted().settings, settings);
+    window.state_mut().chosen(Choice::File(Purpose::SavePicture, "a.exr".into()));
+    window.steps(2);
+    assert_eq!(window.fake.told(|t| t.saves.clone()), [Path::new("a.exr")]);
+    let wanted = window.fake.wanted();
+    assert_eq!((wanted.settings, wanted.layer), (settings, Layer::Picture));
+}
+
+#[test]
+fn parallel_rays_come_closer_in_the_edits() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}],
+        "cameras": [{"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0.1, "zfar": 10}}]}"#;
+    let mut window = Window::empty();
+    window.open(&write(folder.path(), "parallel.gltf", text));
+    let at = window.at(0.5, 0.5);
+    window.ui.event(egui::Event::PointerMoved(at));
+    let before = window.fake.wanted().camera.projection;
+    let mut pose = window.state().pose().unwrap();
+    pose.camera.projection = pose.camera.projection.scaled(0.5);
+    window.state_mut().set_pose(pose);
+    window.rest();
+    let camera = window.fake.wanted().camera;
+    assert_eq!(camera.projection, before.scaled(0.5));
+    // As `lumbre render --edits` finds it.
+    let document = window.state().document.as_ref().unwrap();
+    let text = document.edits.to_text();
+    let options = lumbre::edits::Edits::parse(&text).unwrap().camera_options();
+    let compiled = lumbre::compile(&document.base).unwrap().scene;
+    let found = lumbre::find_camera(&document.base, &compiled, &options, camera.aspect).unwrap();
+    assert_eq!(found.camera, camera);
 }

@@ -395,6 +395,7 @@ fn the_camera_is_the_command_line_s() {
         ("target", point(0.0, 1.0, 0.0)),
         ("up", point(1.0, 0.0, 0.0)),
         ("fov", Value::Number(35.0)),
+        ("height", Value::Number(3.0)),
         ("aperture", Value::FNumber(2.8)),
         ("focus", Value::Number(4.0)),
     ] {
@@ -407,6 +408,7 @@ fn the_camera_is_the_command_line_s() {
         look_at: Some(Vec3::Y),
         up: Some(Vec3::X),
         fov: Some(35f32.to_radians()),
+        height: Some(3.0),
         aperture: Some(Aperture::FNumber(2.8)),
         focus: Focus::Distance(4.0),
     };
