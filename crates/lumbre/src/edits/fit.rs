@@ -70,7 +70,7 @@ mod tests {
         edits.set(&before, Item::Material(MaterialId(0)), "roughness", Value::Number(0.25)).unwrap();
         edits.set(&before, Item::Material(MaterialId(1)), "roughness", Value::Number(0.5)).unwrap();
         edits.set(&before, Item::Node(NodeId(0)), "visible", Value::Flag(false)).unwrap();
-        edits.set(&before, Item::Settings, "maxDepth", Value::Number(3.0)).unwrap();
+        edits.set(&before, Item::Settings, "maxDepth", Value::Whole(3)).unwrap();
         edits.add_light("lamp");
         let whole = edits.clone();
         assert!(edits.fit(&before).is_empty() && edits == whole);

@@ -229,6 +229,27 @@ fn the_good_scene_stays_where_a_broken_one_comes() {
 }
 
 #[test]
+fn a_scene_that_looks_the_same_is_not_begun_anew() {
+    let mut w = wanted();
+    let mut scene = (*w.scene).clone();
+    let empty = scene.add_root(Node::default());
+    w.scene = Arc::new(scene.clone());
+    let mut s = Watched::start(w.clone());
+    s.frame(|f| f.stats.done);
+    scene.nodes[empty.index()].transform = Mat4::from_translation(Vec3::X);
+    w.scene = Arc::new(scene.clone());
+    s.session.set(w.clone());
+    s.no_more_frames();
+    // The next edit is seen from there.
+    scene.nodes[0].visible = false;
+    w.scene = Arc::new(scene);
+    let number = s.session.set(w.clone());
+    let frame = s.frame(|f| f.stats.done && f.number == number);
+    let rgb: Vec<u8> = frame.rgba.chunks_exact(4).flat_map(|p| p[..3].to_vec()).collect();
+    assert!(rgb == output::develop(&rendered(&w, 20), &w.look.look).bytes);
+}
+
+#[test]
 fn a_session_begins_with_the_first_scene_that_is_whole() {
     let mut broken = scene();
     broken.add_root(Node { mesh: Some(MeshId(7)), ..Node::default() });

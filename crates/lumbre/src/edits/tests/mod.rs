@@ -198,7 +198,9 @@ fn every_parameter_applies_to_something() {
     edits.set(&base, Item::Sky, "kind", Value::Word("file")).unwrap();
     edits.set(&base, Item::Camera, "aperture", Value::FNumber(4.0)).unwrap();
     let rows = |item: &Item| edits.rows(&base, &camera(), *item).unwrap();
-    let all: Vec<Row> = items.iter().flat_map(rows).collect();
+    let mut all: Vec<Row> = items.iter().flat_map(rows).collect();
+    let projection = lumbre_core::camera::Projection::Orthographic { half_height: 1.0 };
+    all.extend(edits.rows(&base, &Camera { projection, ..camera() }, Item::Camera).unwrap());
     for row in &all {
         let shows = all.iter().any(|r| r.name == row.name && r.label == row.label && r.applies);
         assert!(shows || row.name == "color" && row.label == "Colour", "{}", row.name);
