@@ -283,6 +283,7 @@ impl App {
                 .default_size(SIDE)
                 .min_size(240.0)
                 .show(ui, |ui| panels::side_bar(ui, state, commands));
+            state.unfold = None;
         }
         let picture = &mut self.picture;
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| picture.show(ui, state)).inner

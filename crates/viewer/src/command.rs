@@ -345,6 +345,7 @@ impl State {
             edits.set(base, item, "direction", Value::Vector(direction))
         });
         self.selection = Selection { item: added, material: None };
+        self.unfold = Some("Lights");
     }
 
     fn remove_light(&mut self, item: Item) {

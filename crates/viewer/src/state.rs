@@ -98,6 +98,8 @@ pub struct State {
     pub running: Running,
     /// What is picked.
     pub selection: Selection,
+    /// The panel that is to be unfolded.
+    pub(crate) unfold: Option<&'static str>,
     /// What is asked of the session.
     pub picks: Picks,
     /// Columns and rows of the picture, pixels.
@@ -170,6 +172,7 @@ impl State {
             document: None,
             running,
             selection: Selection::default(),
+            unfold: None,
             picks: Picks::default(),
             size: [0, 0],
             reach: 1.0,
@@ -464,6 +467,7 @@ impl State {
             (Why::Select | Why::Frame, Some(picked)) => {
                 let material = picked.material;
                 self.selection = Selection { item: Some(Item::Node(picked.node)), material };
+                self.unfold = Some("Material");
                 if why == Why::Frame {
                     self.frame(picked.node);
                 }

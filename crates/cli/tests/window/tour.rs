@@ -48,7 +48,6 @@ fn tour(device: &str, other: &str, size: [u32; 2]) {
     for panel in ["Render", "View", "Statistics"] {
         h.press(panel);
     }
-    h.press("Material");
     h.click(picture.at(0.5, 0.7));
     h.until("a material", |h| h.find("Roughness", slider).is_some());
     h.photograph_whole("picked");

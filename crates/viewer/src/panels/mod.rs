@@ -48,15 +48,19 @@ pub fn side_bar(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
         ui.add_space(2.0);
         for (name, open, show) in PANELS {
             let heading = RichText::new(name).strong();
+            // The panel of what was picked comes into view by itself.
+            let wanted = state.unfold == Some(name);
             let header = CollapsingHeader::new(heading).id_salt(name).default_open(open);
-            // What is picked comes into view by itself.
-            header.show(ui, |ui| {
+            let shown = header.open(wanted.then_some(true)).show(ui, |ui| {
                 if state.document.is_some() || matches!(name, "Render" | "Statistics" | "Log") {
                     show(ui, state, out);
                 } else {
                     ui.weak("Open a scene first.");
                 }
             });
+            if wanted {
+                shown.header_response.scroll_to_me(None);
+            }
             ui.separator();
         }
     });

@@ -128,9 +128,11 @@ fn a_double_click_brings_what_it_meets_scrolled_to() {
         normal: Vec3::Y,
         distance: 1.0,
     };
+    assert!(!window.shows("Roughness"));
     window.fake.happens(Event::Picked(Some(picked)));
-    window.steps(2);
+    window.steps(40);
     assert_eq!(window.state().selection.material, Some(MaterialId(0)));
+    assert!(window.shows("Roughness"), "its material unfolds");
     assert_eq!(window.fake.wanted().camera, before, "a click alone leaves the camera");
     window.fake.happens(Event::Picked(Some(picked)));
     window.rest();

@@ -1,6 +1,6 @@
 //! The same with a real session: what is shown is what `lumbre render` draws.
 
-use crate::kit::asset;
+use crate::kit::{Window, asset};
 use eframe::egui;
 use egui_kittest::Harness;
 use lumbre::core::Film;
@@ -129,4 +129,23 @@ fn rendered(edits: &str, size: [u32; 2]) -> Vec<u8> {
     lumbre::render(&*backend, &view, Targets::spp(SAMPLES), &mut film, &()).unwrap();
     let picture = lumbre::output::develop(&film, &edits.look(LookEdits::default()).look);
     picture.bytes.chunks(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect()
+}
+
+#[test]
+fn a_window_that_is_minimised_rests_and_goes_on_from_there() {
+    let mut window = Window::with("cornell.glb");
+    let before = window.fake.wanted();
+    assert!(!before.paused);
+    for minimised in [true, false] {
+        let viewports = &mut window.ui.input_mut().viewports;
+        viewports.entry(egui::ViewportId::ROOT).or_default().minimized = Some(minimised);
+        window.steps(2);
+        let wanted = window.fake.wanted();
+        assert_eq!(wanted.paused, minimised);
+        assert_eq!(
+            (wanted.size, wanted.camera, wanted.restarts),
+            (before.size, before.camera, before.restarts)
+        );
+    }
+    assert!(!window.state().running.paused, "nobody paused it");
 }
