@@ -2,7 +2,8 @@
 
 use lumbre_core::Spectrum;
 use lumbre_core::bsdf::{
-    Bsdf, BsdfParams, BsdfSample, CoatParams, FilmParams, GlossParams, SheenParams, TransportMode,
+    Bsdf, BsdfParams, BsdfSample, CoatParams, DiffuseSampling, FilmParams, GlossParams, SheenParams,
+    TransportMode,
 };
 use lumbre_core::hash::unit;
 use lumbre_core::math::Vec3;
@@ -239,6 +240,7 @@ fn everything_is_finite_for_a_million_inputs() {
     let ior_corners = [1.0, 1.5, 1.0 / 1.5, 2.417, 1.000_001, 0.999, 1.33, 10.0, 0.1];
     for k in 0..1_000_000 {
         let c = |dim| corner(k, dim, &unit_corners);
+        let eta = corner(k, 10, &ior_corners).max(0.05) + if k % 5 == 0 { 1.0 } else { 0.0 };
         let params = BsdfParams {
             base_color: Spectrum::new(c(0), c(1), c(2)),
             metallic: c(3),
@@ -248,7 +250,7 @@ fn everything_is_finite_for_a_million_inputs() {
             specular_color: Spectrum::new(c(7), 3.0 * c(8), 0.5),
             transmission: c(9),
             thin: k & 1 == 0,
-            eta: corner(k, 10, &ior_corners).max(0.05) + if k % 5 == 0 { 1.0 } else { 0.0 },
+            eta,
             inside: k & 2 == 0,
             sheen: (k & 12 == 4).then(|| SheenParams {
                 color: Spectrum::new(c(17), c(18), c(19)),
@@ -272,7 +274,10 @@ fn everything_is_finite_for_a_million_inputs() {
                 exponent: corner(k, 19, &[0.0, 1.0, 1e4, 1.9e6, f32::INFINITY, f32::NAN]) * 100.0,
                 fresnel: k % 2 == 0,
             }),
-            ..BsdfParams::default()
+            eta_fresnel: (k % 17 == 0 && eta >= 1.0).then(|| 1.0 + corner(k, 28, &unit_corners)),
+            diffuse_sampling: if k % 19 == 0 { DiffuseSampling::Uniform } else { DiffuseSampling::Cosine },
+            diffuse_transmission_color: Spectrum::new(c(29), c(30), c(31)),
+            // All of them by name: a new one has to be here.
         };
         let bsdf = Bsdf::new(&params);
         let wo = direction(corner(k, 11, &cos_corners), 6.3 * unit(k, 9));

@@ -20,7 +20,7 @@ use lumbre_testkit::paired::{Bounds, Paired};
 use lumbre_testkit::shapes::{add, rectangle};
 use std::sync::Arc;
 
-/// Sixteen materials' balls in a picture cover some 8 % of it each.
+/// Up to six materials' balls in a picture cover some 8 % of it each.
 const SHOT: Shot = Shot { size: [36, 24], spp: 2, bounds: Bounds::PLAIN };
 
 const MORE: f32 = 1.01;

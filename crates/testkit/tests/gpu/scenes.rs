@@ -98,6 +98,7 @@ pub(crate) fn media_view(aspect: f32) -> View {
 /// A ball of each material, or a square facing the camera where it is for thin things, three in a row, before a wall under a lamp and a
 /// sky: the materials are 1, 2, … of the scene.
 pub(crate) fn samples(materials: &[(bool, Material)]) -> Scene {
+    assert!(materials.len() <= 6, "more lie outside the picture");
     let mut scene = Scene { environment: sky(0.8), ..Scene::default() };
     let wall = rectangle(Vec3::new(0.0, 0.0, -1.2), Vec3::X * 4.0, Vec3::Y * 3.0);
     add(&mut scene, wall, Material::diffuse(grey(0.6)));
