@@ -6,12 +6,12 @@
 use crate::command::Command;
 use crate::document::Settled;
 use crate::input;
-use crate::open::{FileKind, Opened};
+use crate::open::Opened;
 use crate::panels;
 use crate::picture::{self, Picture};
 use crate::report::{Report, Step};
 use crate::sink::Sink;
-use crate::state::{REST, State};
+use crate::state::{Arriving, REST, State};
 use eframe::egui::{self, CentralPanel, Context, Event as Input, Frame, Panel, Rect, Ui, ViewportCommand};
 use lumbre::session::{FrameSink, FrameStats, Layer, Session, Wanted};
 use lumbre::{Device, GpuOptions};
@@ -153,8 +153,8 @@ impl App {
             self.state.stats = FrameStats { exposure_ev, ..frame.stats };
         }
         news.events.into_iter().for_each(|event| self.state.happened(event, window));
-        for opened in self.state.loader.take() {
-            self.opened(opened, window);
+        for (number, opened) in self.state.loader.take() {
+            self.opened(number, opened, window);
         }
         self.state.look_at_file();
         if let Some(found) = self.devices.as_ref().and_then(|d| d.try_recv().ok()) {
@@ -173,38 +173,42 @@ impl App {
         }
     }
 
-    fn opened(&mut self, opened: Opened, window: &Context) {
+    /// Something that was asked for when the scene of this number was open.
+    fn opened(&mut self, number: u64, opened: Opened, window: &Context) {
         let state = &mut self.state;
+        let is_of_use = state.document.as_ref().is_none_or(|d| d.number == number);
         match opened {
             Opened::Scene(opened) => {
+                let (path, again) = (opened.path.clone(), opened.again);
                 state.open(*opened, window);
-                for path in std::mem::take(&mut state.with_scene) {
-                    state.loader.open(&path);
-                }
+                let with = state.with_scene.take_if(|(scene, _)| *scene == path && !again);
+                with.into_iter().flat_map(|(_, files)| files).for_each(|file| state.loader.open(&file));
             }
             Opened::Failed { path, reason } => {
                 state.recent.remove(&path);
                 state.log.error(reason);
-                if FileKind::of(&path) == FileKind::Scene {
-                    state.with_scene.clear();
-                }
+                state.with_scene.take_if(|(scene, _)| *scene == path);
                 // A sky that cannot be read.
                 if let Some(document) = &mut state.document
+                    && is_of_use
                     && document.edits.sky_file().is_some_and(|file| file == path)
                 {
                     document.give_up();
                     state.refuse_edits();
                 }
             }
+            Opened::Written { path, edits } => state.edits_written(path, *edits, number, window),
+            Opened::NotWritten(reason) => state.edits_not_written(reason),
+            // For the scene that was there before.
+            Opened::Environment { .. } | Opened::Edits { .. } if !is_of_use => {}
             Opened::Environment { path, map, notes } => {
                 notes.into_iter().for_each(|note| state.log.note(note));
                 state.use_environment(path, map);
             }
-            Opened::Written { path, edits } => state.edits_written(path, *edits, window),
-            Opened::NotWritten(reason) => state.edits_not_written(reason),
             Opened::Edits { path, edits } => match &mut state.document {
                 Some(document) => {
-                    state.arriving = Some((path, document.edits.camera.clone()));
+                    let camera = document.edits.camera.clone();
+                    state.arriving = Some(Arriving { path, edits: (*edits).clone(), camera });
                     document.replace_edits(*edits);
                     state.stir();
                 }

@@ -379,7 +379,7 @@ impl State {
         match scenes.into_iter().next_back() {
             Some(scene) => {
                 // The others are for that one.
-                self.with_scene = others;
+                self.with_scene = Some((scene.clone(), others));
                 self.open_file(scene);
             }
             None => others.into_iter().for_each(|path| self.open_file(path)),

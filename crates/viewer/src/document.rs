@@ -5,6 +5,7 @@
 use crate::history::History;
 use crate::open::OpenedScene;
 use crate::places::{MeshBounds, Places};
+use lumbre::LoadOptions;
 use lumbre::camera::camera_names;
 use lumbre::edits::{Changes, Edits, Value};
 use lumbre::scene::{EnvironmentMap, Scene};
@@ -17,8 +18,10 @@ use std::sync::Arc;
 pub struct Document {
     /// Its file.
     pub path: PathBuf,
-    /// Flags of `lumbre render` by which it was read.
-    pub flags: Vec<String>,
+    /// How it was read.
+    pub options: LoadOptions,
+    /// Another number for each scene that is opened; reading a file again does not change it.
+    pub number: u64,
     /// As the file says.
     pub base: Arc<Scene>,
     /// What was changed.
@@ -38,6 +41,8 @@ pub struct Document {
     shown: Edits,
     /// The edits that are in a file, but for the camera.
     saved: Edits,
+    /// Those that there were when the file was read, but for the camera.
+    arrived: Edits,
     maps: HashMap<PathBuf, Arc<EnvironmentMap>>,
 }
 
@@ -55,15 +60,16 @@ pub enum Settled {
 }
 
 impl Document {
-    /// A scene that nobody has changed.
-    pub fn new(opened: OpenedScene) -> Self {
+    /// A scene that nobody has changed, the `number`-th that is opened.
+    pub fn new(opened: OpenedScene, number: u64) -> Self {
         let places = Places::of(&opened.scene, &opened.meshes);
         let name = opened.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let mut edits = Edits::default();
         edits.scene = name;
         Document {
             path: opened.path,
-            flags: opened.flags,
+            options: opened.options,
+            number,
             cameras: camera_names(&opened.scene),
             scene: opened.scene.clone(),
             base: opened.scene,
@@ -71,6 +77,7 @@ impl Document {
             views: History::new(edits.camera.clone()),
             shown: Edits::default(),
             saved: undoable(&edits),
+            arrived: undoable(&edits),
             edits,
             places,
             meshes: opened.meshes,
@@ -78,17 +85,26 @@ impl Document {
         }
     }
 
-    /// The same after its file has changed: edits, steps and views stay, but for edits of what is not there any more, which leave as a step that
-    /// can be undone once it is there again. Also why each left, a line.
+    /// The same after its file has changed: edits, steps and views stay, but for edits of what is not there any more. Also why each of
+    /// these left, a line.
     pub fn reloaded(self, opened: OpenedScene) -> (Self, Vec<String>) {
-        let fresh = Document::new(opened);
+        let fresh = Document::new(opened, self.number);
         let Document { mut edits, mut history, views, maps, saved, .. } = self;
         history.observe(&undoable(&edits), false);
-        let gone = edits.fit(&fresh.base);
-        (
-            Document { edits, history, views, maps, saved, ..fresh },
-            gone.iter().map(ToString::to_string).collect(),
-        )
+        let gone = edits.fit(&fresh.base).iter().map(ToString::to_string).collect();
+        let arrived = undoable(&edits);
+        (Document { edits, history, views, maps, saved, arrived, ..fresh }, gone)
+    }
+
+    /// Back to what there was before [`Document::reloaded`], with all that was done since.
+    pub fn back_to(self, before: Document) -> Self {
+        let Document { mut edits, mut history, views, maps, mut saved, arrived, .. } = self;
+        if undoable(&edits) == arrived {
+            let camera = edits.camera;
+            (edits, history, saved) = (before.edits, before.history, before.saved);
+            edits.camera = camera;
+        }
+        Document { edits, history, views, maps, saved, ..before }
     }
 
     /// Opens edits in the place of those there are. They can be undone.
@@ -177,16 +193,27 @@ impl Document {
 
     /// Takes the last step back. Whether there was one.
     pub fn undo(&mut self) -> bool {
-        self.history.observe(&undoable(&self.edits), false);
-        let before = self.history.undo();
-        before.map(|edits| self.set_undoable(edits)).is_some()
+        self.step(History::undo, History::redo)
     }
 
     /// Makes it again.
     pub fn redo(&mut self) -> bool {
+        self.step(History::redo, History::undo)
+    }
+
+    /// To the next step that fits the scene: those of what a changed file has lost are passed over.
+    fn step(&mut self, on: Step, back: Step) -> bool {
         self.history.observe(&undoable(&self.edits), false);
-        let after = self.history.redo();
-        after.map(|edits| self.set_undoable(edits)).is_some()
+        let mut over = 0;
+        while let Some(edits) = on(&mut self.history) {
+            if edits.clone().fit(&self.base).is_empty() {
+                self.set_undoable(edits);
+                return true;
+            }
+            over += 1;
+        }
+        (0..over).for_each(|_| drop(back(&mut self.history)));
+        false
     }
 
     fn set_undoable(&mut self, edits: Edits) {
@@ -195,6 +222,9 @@ impl Document {
         self.edits.camera = camera;
     }
 }
+
+/// A way through the steps.
+type Step = fn(&mut History<Edits>) -> Option<Edits>;
 
 /// The edits without the camera.
 fn undoable(edits: &Edits) -> Edits {

@@ -38,7 +38,8 @@ impl State {
 
     /// The window was asked to close. Whether it may.
     pub fn may_close(&mut self) -> bool {
-        if self.is_unsaved() {
+        // What is being written is waited for.
+        if self.is_unsaved() || self.writing {
             self.leaving = Some(Leaving::Close);
         }
         self.leaving.is_none()
@@ -54,7 +55,7 @@ impl State {
         match how {
             Leave::Stay => {
                 self.leaving = None;
-                self.with_scene.clear();
+                self.with_scene = None;
             }
             Leave::Discard => {
                 // A scene that cannot be opened leaves them as they are.

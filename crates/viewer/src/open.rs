@@ -22,8 +22,8 @@ pub struct OpenedScene {
     pub scene: Arc<Scene>,
     /// Boxes of its meshes.
     pub meshes: MeshBounds,
-    /// Flags of `lumbre render` by which it was read.
-    pub flags: Vec<String>,
+    /// How it was read.
+    pub options: LoadOptions,
     /// What there is to say, a line each.
     pub notes: Vec<String>,
     /// The file had changed while it was shown.
@@ -103,12 +103,14 @@ pub struct Loader {
     options: LoadOptions,
     send: Sender<(u64, Opened)>,
     receive: Receiver<(u64, Opened)>,
+    /// The number of the scene that is open: what is asked for is for that one.
+    pub document: u64,
     window: Arc<Mutex<Option<Context>>>,
     /// Number of the last scene that was asked for: those before it are of no use.
     last_scene: u64,
     count: u64,
-    /// What is being opened.
-    under_way: Vec<(u64, PathBuf)>,
+    /// What is being opened or written, and the number of the scene that it is for.
+    under_way: Vec<(u64, PathBuf, u64)>,
 }
 
 impl Loader {
@@ -119,6 +121,7 @@ impl Loader {
             options,
             send,
             receive,
+            document: 0,
             window: Arc::default(),
             last_scene: 0,
             count: 0,
@@ -134,9 +137,9 @@ impl Loader {
     /// Opens a file by its ending.
     pub fn open(&mut self, path: &Path) {
         match FileKind::of(path) {
-            FileKind::Scene => self.open_scene(path, false),
+            FileKind::Scene => self.open_scene(path),
             FileKind::Environment => self.open_environment(path),
-            FileKind::Edits => self.start(path, move |path| {
+            FileKind::Edits => self.start(path, failed, move |path| {
                 let edits = Edits::read(path).map_err(|e| e.to_string())?;
                 Ok(Opened::Edits { path: path.into(), edits: Box::new(edits) })
             }),
@@ -144,24 +147,27 @@ impl Loader {
     }
 
     /// Opens a scene.
-    pub fn open_scene(&mut self, path: &Path, again: bool) {
-        let mut options = self.options.clone();
-        if self.last_scene > 0 && !again {
-            // Which of a file's scenes was said of the first file.
-            options = LoadOptions {
-                limits: options.limits,
-                asset_dirs: options.asset_dirs,
-                ..LoadOptions::default()
-            };
-            self.options = options.clone();
-        }
+    pub fn open_scene(&mut self, path: &Path) {
+        let options = self.options.clone();
+        // Which of a file's scenes was said of the first file.
+        (self.options.scene, self.options.variant) = Default::default();
+        self.scene(path, options, false);
+    }
+
+    /// Opens the file of a scene again, which has changed, as it was opened before.
+    pub fn open_again(&mut self, path: &Path, options: LoadOptions) {
+        self.scene(path, options, true);
+    }
+
+    fn scene(&mut self, path: &Path, options: LoadOptions, again: bool) {
         self.last_scene = self.count + 1;
-        self.start(path, move |path| load(path, &options, again));
+        self.start(path, failed, move |path| load(path, &options, again));
     }
 
     /// Writes edits.
     pub fn write_edits(&mut self, path: PathBuf, edits: Edits) {
-        self.start(&path, move |path| {
+        let failed = |_, reason| Opened::NotWritten(reason);
+        self.start(&path, failed, move |path| {
             Ok(match edits.write(path) {
                 Ok(()) => Opened::Written { path: path.into(), edits: Box::new(edits) },
                 Err(e) => Opened::NotWritten(e.to_string()),
@@ -172,49 +178,58 @@ impl Loader {
     /// Opens a picture of the surroundings.
     pub fn open_environment(&mut self, path: &Path) {
         let limits = self.options.limits.clone();
-        self.start(path, move |path| environment(path, &limits));
+        self.start(path, failed, move |path| environment(path, &limits));
     }
 
-    fn start(&mut self, path: &Path, work: impl FnOnce(&Path) -> Result<Opened, String> + Send + 'static) {
+    fn start(
+        &mut self,
+        path: &Path,
+        failed: fn(PathBuf, String) -> Opened,
+        work: impl FnOnce(&Path) -> Result<Opened, String> + Send + 'static,
+    ) {
         self.count += 1;
         let (number, send, window, path) =
             (self.count, self.send.clone(), self.window.clone(), path.to_path_buf());
-        self.under_way.push((number, path.clone()));
+        self.under_way.push((number, path.clone(), self.document));
         let of_thread = path.clone();
         let job = move || {
             let path = of_thread;
             // A panic was printed where it arose; here it is one more file that cannot be opened.
             let done = catch_unwind(AssertUnwindSafe(|| work(&path)))
                 .unwrap_or_else(|_| Err(format!("{}: this is a bug: the loader panicked", path.display())));
-            let _ = send.send((number, done.unwrap_or_else(|reason| Opened::Failed { path, reason })));
+            let _ = send.send((number, done.unwrap_or_else(|reason| failed(path, reason))));
             let window = window.lock().unwrap_or_else(PoisonError::into_inner).clone();
             if let Some(window) = window {
                 window.request_repaint();
             }
         };
         if let Err(e) = std::thread::Builder::new().name("open".into()).spawn(job) {
-            let _ = self.send.send((number, Opened::Failed { path, reason: e.to_string() }));
+            let _ = self.send.send((number, failed(path, e.to_string())));
         }
     }
 
     /// The file that is being opened.
     pub fn under_way(&self) -> Option<&Path> {
-        self.under_way.last().map(|(_, path)| &**path)
+        self.under_way.last().map(|(_, path, _)| &**path)
     }
 
-    /// What came, the oldest first.
-    pub fn take(&mut self) -> Vec<Opened> {
+    /// What came, the oldest first, each with the number of the scene that it was asked for.
+    pub fn take(&mut self) -> Vec<(u64, Opened)> {
         let came: Vec<(u64, Opened)> = self.receive.try_iter().collect();
-        self.under_way.retain(|(number, _)| came.iter().all(|(n, _)| n != number));
-        let of_use = |number: u64, opened: &Opened| match opened {
-            Opened::Scene(_) => number == self.last_scene,
-            _ => true,
-        };
-        came.into_iter()
-            .filter(|(number, opened)| of_use(*number, opened))
-            .map(|(_, opened)| opened)
-            .collect()
+        let mut out = Vec::new();
+        for (number, opened) in came {
+            let at = self.under_way.iter().position(|(n, ..)| *n == number);
+            let document = at.map_or(self.document, |at| self.under_way.remove(at).2);
+            if !matches!(opened, Opened::Scene(_)) || number == self.last_scene {
+                out.push((document, opened));
+            }
+        }
+        out
     }
+}
+
+fn failed(path: PathBuf, reason: String) -> Opened {
+    Opened::Failed { path, reason }
 }
 
 /// Loads a scene, gives light to a dark one, and measures it.
@@ -233,7 +248,7 @@ fn load(path: &Path, options: &LoadOptions, again: bool) -> Result<Opened, Strin
         path: path.into(),
         scene: Arc::new(scene),
         meshes,
-        flags: crate::saving::flags(options),
+        options: options.clone(),
         notes,
         again,
     })))
@@ -254,7 +269,7 @@ mod tests {
     fn next(loader: &mut Loader) -> Opened {
         let began = Instant::now();
         while began.elapsed() < Duration::from_secs(30) {
-            if let Some(opened) = loader.take().pop() {
+            if let Some((_, opened)) = loader.take().pop() {
                 return opened;
             }
             std::thread::sleep(Duration::from_millis(5));
@@ -311,8 +326,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = triangle(folder.path());
         let mut loader = Loader::new(LoadOptions::default());
-        loader.open_scene(&path, false);
-        loader.open_scene(&path, true);
+        loader.open_scene(&path);
+        loader.open_again(&path, LoadOptions::default());
         let Opened::Scene(opened) = next(&mut loader) else { panic!("no scene") };
         assert!(opened.again);
         std::thread::sleep(Duration::from_millis(200));
@@ -322,7 +337,7 @@ mod tests {
     #[test]
     fn a_panic_is_a_file_that_cannot_be_opened() {
         let mut loader = Loader::new(LoadOptions::default());
-        loader.start(Path::new("a.glb"), |_| panic!("on purpose"));
+        loader.start(Path::new("a.glb"), failed, |_| panic!("on purpose"));
         let Opened::Failed { reason, .. } = next(&mut loader) else { panic!("opened") };
         assert!(reason.contains("a.glb") && reason.contains("bug"), "{reason}");
     }

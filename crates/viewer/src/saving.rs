@@ -8,9 +8,12 @@ use lumbre::session::Layer;
 use std::path::{Path, PathBuf};
 
 impl State {
-    /// Begins to write the edits; what waits for that is done [when they are written](State::edits_written).
+    /// Begins to write the edits; what waits for that is done [when they are written](State::edits_written). One file at a time.
     pub(crate) fn save_edits(&mut self, path: PathBuf) {
-        if let Some(edits) = self.edits_to_save() {
+        if self.writing {
+            self.next_file = Some(path);
+        } else if let Some(edits) = self.edits_to_save() {
+            self.writing = true;
             self.loader.write_edits(path, edits);
         }
     }
@@ -26,13 +29,18 @@ impl State {
         Some(edits)
     }
 
-    /// They are in a file now.
-    pub(crate) fn edits_written(&mut self, path: PathBuf, edits: Edits, window: &Context) {
+    /// They are in a file now: those of the scene of this number.
+    pub(crate) fn edits_written(&mut self, path: PathBuf, edits: Edits, number: u64, window: &Context) {
+        self.writing = false;
         self.log.note(format!("saved {}", path.display()));
-        let Some(document) = self.document.as_mut().filter(|d| d.edits.scene == edits.scene) else { return };
-        document.mark_saved_as(&edits);
-        self.edits_file = Some(path);
-        self.filed = Some(edits);
+        if let Some(document) = self.document.as_mut().filter(|d| d.number == number) {
+            document.mark_saved_as(&edits);
+            self.edits_file = Some(path);
+            self.filed = Some(edits);
+        }
+        if let Some(next) = self.next_file.take() {
+            return self.save_edits(next);
+        }
         if std::mem::take(&mut self.copies) {
             self.copy_command(window);
         }
@@ -42,25 +50,27 @@ impl State {
     /// They cannot be written: nothing that waited for it is done.
     pub(crate) fn edits_not_written(&mut self, reason: String) {
         self.log.error(reason);
-        self.leaving = None;
-        self.copies = false;
+        (self.writing, self.copies) = (false, false);
+        (self.leaving, self.with_scene, self.next_file) = (None, None, None);
     }
 
     /// The edits that were opened are shown, unless something of them is still being read.
     pub fn accept_edits(&mut self) {
         let Some(document) = &mut self.document else { return };
-        if let Some((path, _)) = self.arriving.take_if(|_| document.is_settled()) {
-            document.mark_saved();
-            self.log.note(format!("{} opened", path.display()));
-            self.filed = Some(document.edits.clone());
-            self.edits_file = Some(path);
+        if let Some(arrived) = self.arriving.take_if(|_| document.is_settled()) {
+            let mut edits = arrived.edits;
+            edits.scene.clone_from(&document.edits.scene);
+            document.mark_saved_as(&edits);
+            self.log.note(format!("{} opened", arrived.path.display()));
+            self.filed = Some(edits);
+            self.edits_file = Some(arrived.path);
         }
     }
 
     /// They do not fit: the camera goes back too.
     pub fn refuse_edits(&mut self) {
-        if let (Some((_, camera)), Some(document)) = (self.arriving.take(), &mut self.document) {
-            document.edits.camera = camera;
+        if let (Some(refused), Some(document)) = (self.arriving.take(), &mut self.document) {
+            document.edits.camera = refused.camera;
         }
     }
 
@@ -85,7 +95,8 @@ impl State {
         let document = self.document.as_ref()?;
         let edits = self.edits_file.as_ref().filter(|_| self.filed == self.edits_to_save())?;
         let [width, height] = self.size;
-        let flags: String = document.flags.iter().map(|flag| format!(" {}", quoted(flag))).collect();
+        let flags: String =
+            flags(&document.options).iter().map(|flag| format!(" {}", quoted(flag))).collect();
         Some(format!(
             "lumbre render {}{flags} --edits {} --size {width}x{height} --spp {}",
             quoted_path(&document.path),
@@ -108,7 +119,7 @@ impl State {
 }
 
 /// Flags of `lumbre render` by which a scene was read.
-pub(crate) fn flags(options: &lumbre::LoadOptions) -> Vec<String> {
+fn flags(options: &lumbre::LoadOptions) -> Vec<String> {
     use lumbre::io::SceneChoice;
     let scene = match &options.scene {
         SceneChoice::Default => None,

@@ -72,6 +72,13 @@ pub struct Selection {
     pub material: Option<MaterialId>,
 }
 
+/// Edits that were opened: their file, they, and the camera before them.
+pub(crate) struct Arriving {
+    pub(crate) path: PathBuf,
+    pub(crate) edits: Edits,
+    pub(crate) camera: Changes,
+}
+
 /// A scene that another has taken the place of, and the file of its edits.
 struct Before {
     document: Document,
@@ -147,10 +154,14 @@ pub struct State {
     pub picture_file: Option<PathBuf>,
     /// Where the picture is to be saved, until the session is told.
     pub(crate) picture_to_save: Option<PathBuf>,
-    /// Edits and surroundings that are to be opened once the scene is there that was asked for.
-    pub with_scene: Vec<PathBuf>,
-    /// The file of edits that were opened, and the camera before them, until it is known that they fit.
-    pub arriving: Option<(PathBuf, Changes)>,
+    /// A scene that was asked for, and the edits and surroundings that are to be opened once it is there.
+    pub with_scene: Option<(PathBuf, Vec<PathBuf>)>,
+    /// Edits that were opened, until it is known that they fit.
+    pub(crate) arriving: Option<Arriving>,
+    /// Edits are being written.
+    pub(crate) writing: bool,
+    /// Where they are to be written after that.
+    pub(crate) next_file: Option<PathBuf>,
     /// What there was before the last scene that was opened, until that is on the device.
     before: Option<Before>,
     /// Devices of this machine, once they are known.
@@ -159,6 +170,8 @@ pub struct State {
     pub full_screen: bool,
     /// Another scene or device is on its way, which is worth a line once it is there.
     pub announce: bool,
+    /// Scenes that were opened so far.
+    opened: u64,
     found: Found,
 }
 
@@ -197,12 +210,15 @@ impl State {
             copies: false,
             picture_file: None,
             picture_to_save: None,
-            with_scene: Vec::new(),
+            with_scene: None,
+            writing: false,
+            next_file: None,
             arriving: None,
             before: None,
             devices: Vec::new(),
             full_screen: false,
             announce: false,
+            opened: 0,
             found: Found::default(),
         }
     }
@@ -217,11 +233,11 @@ impl State {
         }
         let path = opened.path.clone();
         let old = self.document.take();
-        self.before = old.clone().map(|document| Before {
-            document,
-            edits_file: self.edits_file.clone(),
-            filed: self.filed.clone(),
-        });
+        // One that has not been on the device yet is nothing to go back to.
+        if self.before.is_none() {
+            let (edits_file, filed) = (self.edits_file.clone(), self.filed.clone());
+            self.before = old.clone().map(|document| Before { document, edits_file, filed });
+        }
         let document = match old {
             Some(old) if again => {
                 let (document, gone) = old.reloaded(opened);
@@ -229,11 +245,11 @@ impl State {
                 document
             }
             _ => {
+                self.forget_files();
                 self.selection = Selection::default();
-                (self.edits_file, self.filed, self.copies) = (None, None, false);
-                // They were for the scene before this one.
-                self.arriving = None;
-                Document::new(opened)
+                self.opened += 1;
+                self.loader.document = self.opened;
+                Document::new(opened, self.opened)
             }
         };
         self.document = Some(document);
@@ -243,6 +259,12 @@ impl State {
         if !again {
             self.first_view();
         }
+    }
+
+    /// No files belong to what is shown, and none is on its way.
+    fn forget_files(&mut self) {
+        (self.edits_file, self.filed, self.next_file, self.copies) = (None, None, None, false);
+        self.arriving = None;
     }
 
     /// Sets the camera of a scene that was just opened: its own, or all of it in view.
@@ -271,8 +293,8 @@ impl State {
     pub fn look_at_file(&mut self) {
         let changed = self.watch.as_ref().is_some_and(Watch::changed);
         if let (true, Some(document)) = (changed, &self.document) {
-            let path = document.path.clone();
-            self.loader.open_scene(&path, true);
+            let (path, options) = (document.path.clone(), document.options.clone());
+            self.loader.open_again(&path, options);
         }
     }
 
@@ -410,38 +432,52 @@ impl State {
     pub fn happened(&mut self, event: Event, window: &eframe::egui::Context) {
         match event {
             Event::Preparing(what) => self.preparing = Some(what),
-            Event::Prepared { device, seconds } => {
+            Event::Prepared { device, seconds, scene } => {
                 self.preparing = None;
-                self.before = None;
+                if self.shows(&scene) {
+                    self.before = None;
+                }
                 self.picks.ask([0.5; 2], Why::Pivot);
                 if std::mem::take(&mut self.announce) {
                     self.log.note(format!("on {device} in {seconds:.2} s"));
                 }
             }
+            Event::Refused { scene, reason } => {
+                self.preparing = None;
+                if self.shows(&scene) {
+                    self.go_back(window);
+                }
+                self.log.error(reason);
+            }
             Event::Notice(text) => self.log.note(text),
-            Event::Failed(text) => self.failed(text, window),
+            Event::Failed(text) => self.log.error(text),
             Event::Picked(found) => self.picked(found),
             Event::Saved(path) => self.log.note(format!("saved {}", path.display())),
         }
     }
 
-    /// Something could not be done. A scene that could not be prepared gives way to the one before it.
-    fn failed(&mut self, text: String, window: &eframe::egui::Context) {
-        if self.preparing.take().is_some()
-            && let Some(Before { document, edits_file, filed }) = self.before.take()
-        {
-            let path = document.path.clone();
-            if let Some(broken) = self.document.replace(document)
-                && broken.path != path
-            {
-                self.recent.remove(&broken.path);
-                // The file that is watched is the other one.
-                self.watch(self.watching, window);
-            }
+    /// Whether a scene is what is open, edited or not.
+    fn shows(&self, scene: &Scene) -> bool {
+        self.document.as_ref().is_some_and(|d| Arc::ptr_eq(&d.base.meshes, &scene.meshes))
+    }
+
+    /// What is open cannot be drawn: back to the scene before, if there is one.
+    fn go_back(&mut self, window: &eframe::egui::Context) {
+        let Some(Before { document: before, edits_file, filed }) = self.before.take() else { return };
+        let Some(refused) = self.document.take() else { return };
+        if refused.number == before.number {
+            self.document = Some(refused.back_to(before));
+        } else {
+            self.recent.remove(&refused.path);
+            self.forget_files();
+            self.selection = Selection::default();
             (self.edits_file, self.filed) = (edits_file, filed);
-            self.measure_reach();
+            self.loader.document = before.number;
+            self.document = Some(before);
+            // The file that is watched is the other one.
+            self.watch(self.watching, window);
         }
-        self.log.error(text);
+        self.measure_reach();
     }
 
     /// An answer of the session.
@@ -505,6 +541,7 @@ impl State {
 
     /// Opens the file dialog.
     pub fn ask_for_file(&mut self, purpose: Purpose, window: &eframe::egui::Context) {
+        self.copies &= purpose == Purpose::SaveEdits;
         let scene =
             self.document.as_ref().map(|d| d.path.clone()).or_else(|| self.recent.paths().first().cloned());
         let beside = |ending: &str| scene.as_ref().map(|path| path.with_extension(ending));

@@ -87,8 +87,8 @@ fn begin(options: &Options) -> App {
     let mut state = State::new(options.load.clone(), running, Recent::of_user());
     state.watching = options.watch;
     if let Some(scene) = &options.scene {
-        state.loader.open_scene(scene, false);
-        state.with_scene.extend(options.edits.clone());
+        state.loader.open_scene(scene);
+        state.with_scene = options.edits.clone().map(|edits| (scene.clone(), vec![edits]));
     }
     let mut app = App::new(state, session(options.gpu));
     options.report.iter().for_each(|report| app.report(report.clone()));

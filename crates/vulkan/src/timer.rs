@@ -62,11 +62,6 @@ impl Timer {
         Ok(Timer { queries: Queries::new(gpu, vk::QueryType::TIMESTAMP, stamps)?, mask })
     }
 
-    /// Stamps that it has.
-    pub fn stamps(&self) -> usize {
-        self.queries.count
-    }
-
     /// First of all in a submission.
     pub fn reset(&self, commands: &Commands<'_>) {
         self.queries.reset(commands);

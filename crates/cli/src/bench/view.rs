@@ -57,11 +57,11 @@ impl FrameSink for Clock {
 
     fn event(&self, event: Event) {
         match event {
-            Event::Failed(why) => {
+            Event::Failed(why) | Event::Refused { reason: why, .. } => {
                 let _ = self.0.lock().unwrap_or_else(PoisonError::into_inner).send(Sent::Failed(why));
             }
             Event::Notice(notice) => console::warning(notice),
-            Event::Prepared { device, seconds } => {
+            Event::Prepared { device, seconds, .. } => {
                 console::note(format_args!("device: {device}, ready after {seconds:.2} s"));
             }
             _ => {}

@@ -29,7 +29,8 @@ pub(super) fn run(shared: Arc<Shared>, gpu: GpuOptions, sink: Arc<dyn FrameSink>
     };
     show.look(wanted.look);
     let pace = Pace::new(false);
-    let mut engine = Engine { shared, gpu, sink, show, wanted, number: 1, failed: None, refused: None, pace };
+    let (number, failed, refused, exposed) = (1, None, None, None);
+    let mut engine = Engine { shared, gpu, sink, show, wanted, number, failed, refused, pace, exposed };
     // `None` comes from far inside once the session is over.
     let _ = engine.work();
 }
@@ -48,6 +49,8 @@ struct Engine {
     refused: Option<Arc<Scene>>,
     /// Of the device that draws.
     pace: Pace,
+    /// Exposure of the last frame that it developed itself.
+    exposed: Option<(f32, Instant)>,
 }
 
 /// A scene as it was written and as it is drawn.
@@ -138,7 +141,8 @@ impl Engine {
                 Some((Made { scene, compiled: done.scene }, changes))
             }
             Err(e) => {
-                self.sink.event(Event::Failed(format!("{}: {e}", scene.name)));
+                let reason = format!("{}: {e}", scene.name);
+                self.sink.event(Event::Refused { scene: scene.clone(), reason });
                 self.refused = Some(scene);
                 None
             }
@@ -163,14 +167,17 @@ impl Engine {
                 Ok(prepared) => {
                     prepared.note.into_iter().for_each(|note| self.sink.event(Event::Notice(note)));
                     self.pace = Pace::new(device != Device::Cpu);
+                    self.exposed = None;
                     let device = prepared.backend.device();
                     *self.shared.drawn() = Some(made.compiled.clone());
                     let seconds = began.elapsed().as_secs_f64();
-                    self.sink.event(Event::Prepared { device, seconds });
+                    let scene = made.scene.clone();
+                    self.sink.event(Event::Prepared { device, seconds, scene });
                     return Some(prepared.backend);
                 }
                 Err(e) if device == Device::Cpu => {
-                    self.sink.event(Event::Failed(e.to_string()));
+                    let (scene, reason) = (made.scene.clone(), e.to_string());
+                    self.sink.event(Event::Refused { scene, reason });
                     self.wait(None)?;
                 }
                 Err(e) => {
@@ -253,8 +260,6 @@ struct Run<'a> {
     began: Instant,
     passes: Vec<PassTime>,
     stats: FrameStats,
-    /// Exposure of the last frame, where the device develops.
-    exposed: Option<(f32, Instant)>,
     /// An eased exposure has not arrived.
     easing: bool,
 }
@@ -277,7 +282,6 @@ impl<'a> Run<'a> {
             began: Instant::now(),
             passes: backend.pass_times(),
             stats: FrameStats::default(),
-            exposed: None,
             easing: false,
         };
         run.begin(engine);
@@ -391,16 +395,17 @@ impl<'a> Run<'a> {
     }
 
     /// Sends what there is to be shown.
-    fn show(&mut self, engine: &Engine, seconds: f64) -> Result<(), RenderError> {
-        let wanted = &engine.wanted;
+    fn show(&mut self, engine: &mut Engine, seconds: f64) -> Result<(), RenderError> {
+        let wanted = engine.wanted.clone();
         let stats = FrameStats {
             spp: self.spp,
             seconds,
             since: self.began.elapsed().as_secs_f64(),
-            done: self.rests(wanted),
+            done: self.rests(&wanted),
             ..self.stats.clone()
         };
-        let frame = |size, rgba, stats| Frame { size, rgba, number: engine.number, stats };
+        let number = engine.number;
+        let frame = |size, rgba, stats| Frame { size, rgba, number, stats };
         self.easing = false;
         if wanted.layer != Layer::Picture {
             engine.show.blank();
@@ -410,7 +415,7 @@ impl<'a> Run<'a> {
             engine.sink.frame(frame([film.width(), film.height()], rgba, stats));
             return Ok(());
         }
-        if let Some((rgba, exposure)) = self.developed(wanted)? {
+        if let Some((rgba, exposure)) = self.developed(engine)? {
             engine.show.blank();
             let stats = FrameStats { exposure_ev: exposure.log2(), ..stats };
             engine.sink.frame(frame(scaled(wanted.size, self.scale), rgba, stats));
@@ -424,11 +429,11 @@ impl<'a> Run<'a> {
     }
 
     /// The picture as the device develops it, with the factor of its exposure.
-    fn developed(&mut self, wanted: &Wanted) -> Result<Option<(Vec<u8>, f32)>, RenderError> {
-        let look = wanted.look;
-        let share = share(&look, self.exposed.map(|(_, at)| at));
+    fn developed(&mut self, engine: &mut Engine) -> Result<Option<(Vec<u8>, f32)>, RenderError> {
+        let look = engine.wanted.look;
+        let share = share(&look, engine.exposed.map(|(_, at)| at));
         let Some(done) = self.canvas.develop(&look.look, offset(&look), share)? else { return Ok(None) };
-        let last = self.exposed.replace((done.factor, Instant::now()));
+        let last = engine.exposed.replace((done.factor, Instant::now()));
         // A step of this share of the way.
         self.easing = last.is_some_and(|(f, _)| share < 1.0 && !arrived(done.factor / f, share));
         Ok(Some((done.rgba, done.factor)))
@@ -441,13 +446,11 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let mut state = engine.shared.state();
-        if state.number != state.taken {
-            // They may be of what was wanted since.
-            return Ok(());
-        }
-        let paths = std::mem::take(&mut state.saves);
+        // Those that came since may be of what was wanted since.
+        let taken = state.taken;
+        let paths: Vec<_> = state.saves.extract_if(.., |(number, _)| *number <= taken).collect();
         drop(state);
-        for path in paths {
+        for (_, path) in paths {
             let film = self.canvas.film()?;
             let look = engine.look_of(film);
             engine.sink.event(match crate::output::save(film, &look, &path) {

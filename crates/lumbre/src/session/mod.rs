@@ -54,8 +54,9 @@ struct State {
     number: u64,
     /// What the thread knows of.
     taken: u64,
+    /// With the number of the last wish before.
     #[cfg(feature = "files")]
-    saves: Vec<PathBuf>,
+    saves: Vec<(u64, PathBuf)>,
     ended: bool,
 }
 
@@ -133,7 +134,10 @@ impl Session {
     /// first frame of full size that all that was wanted so far has; [`Event::Saved`] or [`Event::Failed`] answers.
     #[cfg(feature = "files")]
     pub fn save(&self, path: PathBuf) {
-        self.shared.state().saves.push(path);
+        let mut state = self.shared.state();
+        let number = state.number;
+        state.saves.push((number, path));
+        drop(state);
         self.shared.changed.notify_one();
     }
 }

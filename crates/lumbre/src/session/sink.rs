@@ -2,8 +2,9 @@
 
 use crate::PassTime;
 use glam::Vec3;
-use lumbre_scene::{MaterialId, NodeId};
+use lumbre_scene::{MaterialId, NodeId, Scene};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Where frames and events go. Called from threads of the session, which wait: an implementation takes what it gets and returns.
 pub trait FrameSink: Send + Sync {
@@ -68,6 +69,15 @@ pub enum Event {
         device: String,
         /// Seconds that it took.
         seconds: f64,
+        /// The scene, as it was wanted.
+        scene: Arc<Scene>,
+    },
+    /// A scene that was wanted cannot be drawn; the one before stays.
+    Refused {
+        /// The scene, as it was wanted.
+        scene: Arc<Scene>,
+        /// Why, in one line.
+        reason: String,
     },
     /// Something to tell people, in one line.
     Notice(String),

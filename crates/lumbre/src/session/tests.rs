@@ -215,7 +215,7 @@ fn the_good_scene_stays_where_a_broken_one_comes() {
     let mut broken = scene();
     broken.add_root(Node { mesh: Some(MeshId(7)), ..Node::default() });
     s.session.set(Wanted { scene: Arc::new(broken), ..good.clone() });
-    let failed = s.event(|e| matches!(e, Event::Failed(_)));
+    let failed = s.event(|e| matches!(e, Event::Refused { .. }));
     assert!(format!("{failed:?}").contains("there is no mesh 7"), "{failed:?}");
     // The view goes on with what there was.
     let mut moved = good.clone();
@@ -254,7 +254,7 @@ fn a_session_begins_with_the_first_scene_that_is_whole() {
     let mut broken = scene();
     broken.add_root(Node { mesh: Some(MeshId(7)), ..Node::default() });
     let mut s = Watched::start(Wanted { scene: Arc::new(broken), ..wanted() });
-    s.event(|e| matches!(e, Event::Failed(_)));
+    s.event(|e| matches!(e, Event::Refused { .. }));
     s.session.set(wanted());
     s.frame(|f| f.stats.done);
 }

@@ -55,7 +55,7 @@ impl FrameSink for Pipe {
         let _ = self.0.lock().unwrap().send(Ok(frame));
     }
     fn event(&self, event: Event) {
-        assert!(!matches!(event, Event::Failed(_)), "{event:?}");
+        assert!(!matches!(event, Event::Failed(_) | Event::Refused { .. }), "{event:?}");
         if let Event::Notice(text) = event {
             let _ = self.0.lock().unwrap().send(Err(text));
         }

@@ -7,7 +7,9 @@ use eframe::egui::{Context, Id, Key, Modal, Ui};
 
 /// Asks, while something waits for the answer and no file is being chosen.
 pub fn show(window: &Context, state: &State, out: &mut Vec<Command>) {
-    let (Some(leaving), Some(document), None) = (&state.leaving, &state.document, &state.dialog) else {
+    let (Some(leaving), Some(document), None, false) =
+        (&state.leaving, &state.document, &state.dialog, state.writing)
+    else {
         return;
     };
     let name = document.path.file_name().unwrap_or_default().to_string_lossy();

@@ -36,15 +36,25 @@ fn a_broken_scene_leaves_the_good_one_and_says_why() {
 fn a_scene_that_cannot_be_prepared_gives_way_to_the_one_before() {
     let mut window = Window::with("cornell.glb");
     let good = window.fake.wanted().scene;
-    window.fake.happens(Event::Prepared { device: "Stand-in".into(), seconds: 0.1 });
+    window.fake.prepared("Stand-in", 0.1);
     window.steps(1);
     window.open(&asset("prism.gltf"));
     window.fake.happens(Event::Preparing("compiling the scene".into()));
-    window.fake.happens(Event::Failed("prism.gltf: material 7 of 3".into()));
+    window.fake.refuses("prism.gltf: material 7 of 3");
     window.steps(2);
     assert!(window.shows("material 7 of 3"));
     assert_eq!(window.state().document.as_ref().unwrap().path, asset("cornell.glb"));
     assert!(Arc::ptr_eq(&good, &window.fake.wanted().scene));
+    // One that is refused late takes no other with it, and what was never drawn is nothing to go back to.
+    window.open(&asset("prism.gltf"));
+    let prism = window.fake.wanted().scene;
+    window.open(&asset("smooth.gltf"));
+    window.fake.happens(Event::Refused { scene: prism, reason: "prism.gltf: too late".into() });
+    window.steps(2);
+    assert_eq!(window.state().document.as_ref().unwrap().path, asset("smooth.gltf"));
+    window.fake.refuses("smooth.gltf: neither");
+    window.steps(2);
+    assert_eq!(window.state().document.as_ref().unwrap().path, asset("cornell.glb"));
 }
 
 #[test]
@@ -263,15 +273,22 @@ fn what_a_changed_file_has_lost_takes_its_edits_along_and_no_others() {
     assert_eq!(window.fake.wanted().settings.max_depth, Some(3));
     assert_eq!(window.state().document.as_ref().unwrap().edits.bookmarks.len(), 1);
     assert!(window.shows("brick"), "it is told what was taken back");
+    // Steps that do not fit any more are passed over, there and back.
+    window.press(Modifiers::COMMAND, Key::Z);
+    window.rest();
+    assert_ne!(roughness(&window, "wood"), Some(0.125));
+    window.press(Modifiers::COMMAND, Key::Y);
+    window.rest();
+    assert_eq!(roughness(&window, "wood"), Some(0.125));
     // A file that can be read and not be drawn leaves what there was.
     let good = window.fake.wanted().scene;
-    window.fake.happens(Event::Prepared { device: "Stand-in".into(), seconds: 0.1 });
+    window.fake.prepared("Stand-in", 0.1);
     window.steps(1);
     of_materials(folder.path(), ["wood", "glass"]);
     std::fs::write(&path, std::fs::read_to_string(&path).unwrap() + "# once more\n").unwrap();
     window.until("the next file", |w| roughness(w, "glass").is_some());
     window.fake.happens(Event::Preparing("compiling the scene".into()));
-    window.fake.happens(Event::Failed("a.obj: too many triangles".into()));
+    window.fake.refuses("a.obj: too many triangles");
     window.steps(2);
     assert!(Arc::ptr_eq(&good, &window.fake.wanted().scene));
     assert_eq!(roughness(&window, "wood"), Some(0.125));

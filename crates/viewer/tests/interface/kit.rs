@@ -44,6 +44,18 @@ impl Fake {
         self.sink().event(event);
     }
 
+    /// What is wanted is on a device.
+    pub(crate) fn prepared(&self, device: &str, seconds: f64) {
+        let scene = self.wanted().scene;
+        self.happens(Event::Prepared { device: device.into(), seconds, scene });
+    }
+
+    /// What is wanted cannot be drawn.
+    pub(crate) fn refuses(&self, reason: &str) {
+        let scene = self.wanted().scene;
+        self.happens(Event::Refused { scene, reason: reason.into() });
+    }
+
     fn sink(&self) -> Arc<dyn FrameSink> {
         self.told(|t| t.sink.clone().expect("a session was started"))
     }

@@ -115,7 +115,7 @@ fn another_device_is_wanted_where_it_is_chosen() {
     window.state_mut().obey(lumbre_viewer::command::Command::Run(running), &context);
     window.steps(2);
     assert_eq!(window.fake.wanted().device, lumbre::Device::Cpu);
-    window.fake.happens(Event::Prepared { device: "CPU (2 threads)".into(), seconds: 0.2 });
+    window.fake.prepared("CPU (2 threads)", 0.2);
     window.steps(2);
     assert!(window.shows("on CPU (2 threads)"));
 }

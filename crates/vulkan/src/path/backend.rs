@@ -68,6 +68,7 @@ struct Work {
     watched: super::code::Watched,
     variants: Vec<Variant>,
     film: Option<FilmOnGpu>,
+    canvas: Option<canvas::Kept>,
     paths: Option<Paths>,
     /// The solids around the last place of the camera.
     media: Option<(Vec3, MediumStack)>,
@@ -83,6 +84,7 @@ impl Work {
             watched: super::code::Watched::default(),
             variants: Vec::new(),
             film: None,
+            canvas: None,
             paths: None,
             media: None,
             pace: Pace::default(),
