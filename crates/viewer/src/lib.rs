@@ -40,6 +40,7 @@ pub mod places;
 pub mod recent;
 pub mod report;
 mod saving;
+mod shot;
 pub mod sink;
 pub mod state;
 pub mod theme;
