@@ -325,7 +325,7 @@ impl App {
             Settled::Changed if busy => state.stir(),
             Settled::Changed => {}
             Settled::Needs(file) => {
-                if state.loader.under_way() != Some(&*file) {
+                if !state.loader.is_opening(&file) {
                     state.loader.open_environment(&file);
                 }
             }

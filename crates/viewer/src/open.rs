@@ -213,6 +213,11 @@ impl Loader {
         self.under_way.last().map(|(_, path, _)| &**path)
     }
 
+    /// Whether a file is being opened.
+    pub fn is_opening(&self, file: &Path) -> bool {
+        self.under_way.iter().any(|(_, path, _)| path == file)
+    }
+
     /// What came, the oldest first, each with the number of the scene that it was asked for.
     pub fn take(&mut self) -> Vec<(u64, Opened)> {
         let came: Vec<(u64, Opened)> = self.receive.try_iter().collect();

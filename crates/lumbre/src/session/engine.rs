@@ -3,7 +3,7 @@
 use super::pace::{Pace, finer, scaled};
 use super::show::{STEP, Shot, Show, arrived, offset, share};
 use super::sink::{Event, Frame, FrameSink, FrameStats};
-use super::{Layer, Shared, Wanted, layers};
+use super::{Layer, Shared, ViewLook, Wanted, layers};
 use crate::backend::{Backend, Canvas, PassTime, RenderError};
 use crate::estimate::Estimator;
 use crate::look::Negative;
@@ -396,44 +396,47 @@ impl<'a> Run<'a> {
 
     /// Sends what there is to be shown.
     fn show(&mut self, engine: &mut Engine, seconds: f64) -> Result<(), RenderError> {
-        let wanted = engine.wanted.clone();
+        let Engine { wanted, number, sink, show, exposed, .. } = engine;
         let stats = FrameStats {
             spp: self.spp,
             seconds,
             since: self.began.elapsed().as_secs_f64(),
-            done: self.rests(&wanted),
+            done: self.rests(wanted),
             ..self.stats.clone()
         };
-        let number = engine.number;
+        let number = *number;
         let frame = |size, rgba, stats| Frame { size, rgba, number, stats };
         self.easing = false;
         if wanted.layer != Layer::Picture {
-            engine.show.blank();
+            show.blank();
             let film = self.canvas.film()?;
             let stats = FrameStats { non_finite: film.non_finite_count(), ..stats };
             let rgba = layers::layer(film, wanted.layer);
-            engine.sink.frame(frame([film.width(), film.height()], rgba, stats));
+            sink.frame(frame([film.width(), film.height()], rgba, stats));
             return Ok(());
         }
-        if let Some((rgba, exposure)) = self.developed(engine)? {
-            engine.show.blank();
+        if let Some((rgba, exposure)) = self.developed(wanted.look, exposed)? {
+            show.blank();
             let stats = FrameStats { exposure_ev: exposure.log2(), ..stats };
-            engine.sink.frame(frame(scaled(wanted.size, self.scale), rgba, stats));
+            sink.frame(frame(scaled(wanted.size, self.scale), rgba, stats));
             return Ok(());
         }
         let film = self.canvas.film()?;
         let stats = FrameStats { non_finite: film.non_finite_count(), ..stats };
         let negative = Negative::new(film, wanted.look.look.transparent);
-        engine.show.shot(Shot { negative, number: engine.number, stats });
+        show.shot(Shot { negative, number, stats });
         Ok(())
     }
 
     /// The picture as the device develops it, with the factor of its exposure.
-    fn developed(&mut self, engine: &mut Engine) -> Result<Option<(Vec<u8>, f32)>, RenderError> {
-        let look = engine.wanted.look;
-        let share = share(&look, engine.exposed.map(|(_, at)| at));
+    fn developed(
+        &mut self,
+        look: ViewLook,
+        exposed: &mut Option<(f32, Instant)>,
+    ) -> Result<Option<(Vec<u8>, f32)>, RenderError> {
+        let share = share(&look, exposed.map(|(_, at)| at));
         let Some(done) = self.canvas.develop(&look.look, offset(&look), share)? else { return Ok(None) };
-        let last = engine.exposed.replace((done.factor, Instant::now()));
+        let last = exposed.replace((done.factor, Instant::now()));
         // A step of this share of the way.
         self.easing = last.is_some_and(|(f, _)| share < 1.0 && !arrived(done.factor / f, share));
         Ok(Some((done.rgba, done.factor)))

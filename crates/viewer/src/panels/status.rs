@@ -20,7 +20,8 @@ pub fn show(ui: &mut Ui, state: &State) {
         let stats = &state.stats;
         if let Some(path) = state.loader.under_way() {
             ui.spinner();
-            ui.label(format!("opening {}", path.file_name().unwrap_or_default().to_string_lossy()));
+            let what = if state.writing { "saving" } else { "opening" };
+            ui.label(format!("{what} {}", path.file_name().unwrap_or_default().to_string_lossy()));
         } else if let Some(what) = &state.preparing {
             ui.spinner();
             ui.label(what);
