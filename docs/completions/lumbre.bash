@@ -97,7 +97,7 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__bench)
-            opts="-h --camera --look-from --look-at --fov --sizes --depths --samples --frames --warm-up --budget --spp --triangles --time --markdown --json --max-depth --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --sky --sun --env --env-rotate --env-strength --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help path samples depth size hemisphere still share equal-time build first-frame view"
+            opts="-h --camera --look-from --look-at --fov --sizes --depths --samples --frames --warm-up --budget --spp --triangles --time --markdown --json --max-depth --rough-bounces --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --sky --sun --env --env-rotate --env-strength --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help path samples depth size hemisphere still share equal-time build first-frame view"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -159,6 +159,10 @@ _lumbre() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --rough-bounces)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --roulette)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -172,7 +176,7 @@ _lumbre() {
                     return 0
                     ;;
                 --filter)
-                    COMPREPLY=($(compgen -W "box tent gaussian blackman-harris" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "box tent gaussian blackman-harris point" -- "${cur}"))
                     return 0
                     ;;
                 --light-sampling)
@@ -701,7 +705,7 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__render)
-            opts="-o -h --output --size --background --first-sample --keep-sums --exposure --tone --vignette --aberration --quality --spp --time --target-error --save-every --max-depth --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --camera --look-from --look-at --fov --aperture --focus --crop --sky --sun --env --env-rotate --env-strength --device --validation --threads --memory-limit --progress --stats --pixel --sample --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
+            opts="-o -h --output --size --background --first-sample --keep-sums --exposure --tone --vignette --aberration --quality --spp --time --target-error --save-every --max-depth --rough-bounces --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --camera --look-from --look-at --fov --aperture --focus --crop --sky --sun --env --env-rotate --env-strength --device --validation --threads --memory-limit --progress --stats --pixel --sample --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -767,6 +771,10 @@ _lumbre() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --rough-bounces)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --roulette)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -780,7 +788,7 @@ _lumbre() {
                     return 0
                     ;;
                 --filter)
-                    COMPREPLY=($(compgen -W "box tent gaussian blackman-harris" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "box tent gaussian blackman-harris point" -- "${cur}"))
                     return 0
                     ;;
                 --light-sampling)

@@ -51,6 +51,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l time -d 'Time f
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l target-error -d 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. 64 samples are taken at least. [default: 0.002 if neither --spp nor --time is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l save-every -d 'Write the outputs again and again with what there is so far, this far apart' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l max-depth -d 'Most scattering events on a path. [default: 16]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l rough-bounces -d 'How often surfaces that are no mirrors or clear glass may throw light on others: 0 leaves direct light, 1 adds what arrives by one such surface. [default: unlimited]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l roulette -d 'First scattering event after which Russian roulette may end a path. [default: 4]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l sampler -d 'Random stream. [default: sobol]' -r -f -a "sobol\t'Owen-scrambled Sobol points: converges faster'
 independent\t'Independent random numbers'"
@@ -58,7 +59,8 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l seed -d 'Seed o
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l filter -d 'Pixel filter. [default: blackman-harris]' -r -f -a "box\t'Exactly one pixel'
 tent\t'Radius of one pixel'
 gaussian\t'Standard deviation of half a pixel, radius 1.5'
-blackman-harris\t'Radius 1.5 pixels'"
+blackman-harris\t'Radius 1.5 pixels'
+point\t'None: all samples at the centre of their pixel'"
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l light-sampling -d 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never. [default: on]' -r -f -a "on\t''
 off\t''"
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l transmissive-shadows -d 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint. [default: auto]' -r -f -a "auto\t'Solid glass lets the light of point lights and the sun through straight, with its tint'
@@ -197,6 +199,7 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l spp -d 'Samples 
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l triangles -d 'Triangles of the grids of `build`, at least' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l time -d 'Time for each device in `equal-time`, and of the edits of `view`' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l max-depth -d 'Most scattering events on a path. [default: 16]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l rough-bounces -d 'How often surfaces that are no mirrors or clear glass may throw light on others: 0 leaves direct light, 1 adds what arrives by one such surface. [default: unlimited]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l roulette -d 'First scattering event after which Russian roulette may end a path. [default: 4]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l sampler -d 'Random stream. [default: sobol]' -r -f -a "sobol\t'Owen-scrambled Sobol points: converges faster'
 independent\t'Independent random numbers'"
@@ -204,7 +207,8 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l seed -d 'Seed of
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l filter -d 'Pixel filter. [default: blackman-harris]' -r -f -a "box\t'Exactly one pixel'
 tent\t'Radius of one pixel'
 gaussian\t'Standard deviation of half a pixel, radius 1.5'
-blackman-harris\t'Radius 1.5 pixels'"
+blackman-harris\t'Radius 1.5 pixels'
+point\t'None: all samples at the centre of their pixel'"
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l light-sampling -d 'Aim rays at the lights (next-event estimation); off: lights are found by chance, and point lights never. [default: on]' -r -f -a "on\t''
 off\t''"
 complete -c lumbre -n "__fish_lumbre_using_subcommand bench" -l transmissive-shadows -d 'What shadow rays do at smooth solid glass and water; thin panes always let light through with their tint. [default: auto]' -r -f -a "auto\t'Solid glass lets the light of point lights and the sun through straight, with its tint'

@@ -15,6 +15,8 @@ pub enum FilterKind {
     /// The four-term window of Harris 1978, radius 1.5 pixels.
     #[default]
     BlackmanHarris,
+    /// No filter: every sample at the centre of its pixel.
+    Point,
 }
 
 /// Intervals of the tabulated inverse.
@@ -36,6 +38,7 @@ impl FilterKind {
             FilterKind::Box => 0.5,
             FilterKind::Tent => 1.0,
             FilterKind::Gaussian | FilterKind::BlackmanHarris => 1.5,
+            FilterKind::Point => 0.0,
         }
     }
 
@@ -46,7 +49,7 @@ impl FilterKind {
             return 0.0;
         }
         match self {
-            FilterKind::Box => 1.0,
+            FilterKind::Box | FilterKind::Point => 1.0,
             FilterKind::Tent => 1.0 - x.abs(),
             FilterKind::Gaussian => exp(-2.0 * x * x),
             FilterKind::BlackmanHarris => {
@@ -73,6 +76,7 @@ impl Filter {
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {
         u.map(|u| match self.kind {
+            FilterKind::Point => 0.0,
             FilterKind::Box => u - 0.5,
             FilterKind::Tent if u < 0.5 => safe_sqrt(2.0 * u) - 1.0,
             FilterKind::Tent => 1.0 - safe_sqrt(2.0 - 2.0 * u),
@@ -113,6 +117,12 @@ fn invert(kind: FilterKind) -> [f32; TABLE + 1] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_point_stays_at_the_centre() {
+        let filter = Filter::new(FilterKind::Point);
+        assert_eq!([[0.0, 0.3], [0.999, 0.5]].map(|u| filter.sample(u)), [[0.0; 2]; 2]);
+    }
 
     /// The drawn offsets follow the filter: second moments and support agree with quadrature.
     #[test]

@@ -13,6 +13,7 @@ pub mod filter;
 pub mod frame;
 pub mod fresnel;
 pub mod hash;
+pub mod hybrid;
 pub mod light;
 pub mod math;
 pub mod measure;

@@ -14,6 +14,16 @@ pub struct PassTime {
 }
 
 impl PassTime {
+    /// Adds a run to the pass of this name in a list.
+    pub fn add(all: &mut Vec<PassTime>, name: &'static str, ms: f64) {
+        let at = all.iter().position(|t| t.name == name).unwrap_or_else(|| {
+            all.push(PassTime { name, ..PassTime::default() });
+            all.len() - 1
+        });
+        all[at].count += 1;
+        all[at].total_ms += ms;
+    }
+
     /// Milliseconds of one run, in the mean.
     pub fn mean_ms(&self) -> f64 {
         self.total_ms / self.count.max(1) as f64

@@ -24,6 +24,9 @@ pub enum TransmissiveShadows {
 pub struct RenderSettings {
     /// Most scattering events on a path; `None`: no limit.
     pub max_depth: Option<u32>,
+    /// How often light that has left its source may be scattered by lobes that are not delta lobes before it is scattered to the camera; `None`: no
+    /// limit. 0: direct light, as in Whitted's method. 1: surfaces light others once.
+    pub rough_bounces: Option<u32>,
     /// First event after which roulette may end a path; `None`: never.
     pub roulette: Option<u32>,
     /// Random stream.
@@ -58,6 +61,7 @@ impl Default for RenderSettings {
     fn default() -> Self {
         RenderSettings {
             max_depth: Some(16),
+            rough_bounces: None,
             roulette: Some(4),
             sampler: SamplerKind::Sobol,
             seed: 0,

@@ -85,6 +85,9 @@ struct Path<'a, 't, O> {
     /// Scattering events so far.
     depth: u32,
     max_depth: u32,
+    /// Of them those at lobes that are not delta lobes.
+    rough: u32,
+    max_rough: u32,
 }
 
 /// Radiance along a camera ray that starts inside `media`.
@@ -115,6 +118,8 @@ pub fn radiance<O: PathObserver>(
         alpha: 1.0,
         depth: 0,
         max_depth: tracer.settings.max_depth.unwrap_or(RenderSettings::DEPTH_BOUND),
+        rough: 0,
+        max_rough: tracer.settings.rough_bounces.unwrap_or(u32::MAX),
     };
     path.begin_inside();
     let first_hit = path.run();
@@ -189,7 +194,8 @@ impl<O: PathObserver> Path<'_, '_, O> {
             }
             // Sample one light of each group.
             let wo_local = surface.frame.to_local(wo);
-            if self.tracer.settings.light_sampling && surface.bsdf.has_smooth_lobes() {
+            let lit = self.tracer.settings.light_sampling && self.rough <= self.max_rough;
+            if lit && surface.bsdf.has_smooth_lobes() {
                 self.add_lights(&it, &surface, wo_local);
             }
             // Sample the BSDF.
@@ -198,6 +204,9 @@ impl<O: PathObserver> Path<'_, '_, O> {
             let Some(s) = surface.bsdf.sample(wo_local, lobe, direction, TransportMode::Radiance) else {
                 return self.end("the surface absorbs", first_hit);
             };
+            if !s.lobe.is_delta() && self.rough > self.max_rough {
+                return self.end("rough surfaces scattered as often as they may", first_hit);
+            }
             let wi = surface.frame.to_world(s.wi).normalize();
             self.observer.event(PathEvent::Scatter { lobe: s.lobe, wi, pdf: s.pdf, weight: s.weight });
             // Interpolated normals: directions on the wrong side of the triangle carry nothing.
@@ -453,6 +462,7 @@ impl<O: PathObserver> Path<'_, '_, O> {
             _ => {
                 self.arrival = Arrival { p: it.p, pdf: Some(s.pdf), through_solid: false };
                 self.seen_by_camera = false;
+                self.rough += 1;
             }
         }
     }

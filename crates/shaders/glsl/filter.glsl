@@ -9,12 +9,16 @@ const uint FILTER_BOX = 0u;
 const uint FILTER_TENT = 1u;
 const uint FILTER_GAUSSIAN = 2u;
 const uint FILTER_BLACKMAN_HARRIS = 3u;
+const uint FILTER_POINT = 4u;
 
 // Intervals of the tabulated inverse.
 const uint FILTER_TABLE = 256u;
 
 // Offset from the pixel's centre along one axis, pixels.
 float filter_sample_axis(uint kind, float u) {
+    if (kind == FILTER_POINT) {
+        return 0.0;
+    }
     if (kind == FILTER_BOX) {
         return u - 0.5;
     }

@@ -6,6 +6,7 @@
 
 pub mod camera;
 pub mod film;
+pub mod hybrid;
 pub mod layout;
 pub mod medium;
 pub mod post;

@@ -87,8 +87,8 @@ pub struct ViewTable {
     pub filter_kind: u32,
     /// 1: the plane of albedo holds a colour for each object.
     pub object_colors: u32,
-    /// Always 0: what alignment leaves over.
-    pub unused: u32,
+    /// Most scattering events at lobes that are not delta lobes before the last one.
+    pub rough_bounces: u32,
     /// The camera.
     pub camera: CameraRecord,
     /// The media around it.

@@ -7,6 +7,7 @@ use lumbre_scene::compiled::lights::{
 };
 use lumbre_scene::compiled::material::{LobesRecord, MaterialRecord, TextureUse};
 use lumbre_shaders::camera::CameraRecord;
+use lumbre_shaders::hybrid::{FrameHeads, FramePush, FrameTable};
 use lumbre_shaders::layout::{GeometryRecord, MeshTable, SceneTable, TextureTable};
 use lumbre_shaders::medium::MediumStackRecord;
 use lumbre_shaders::post::PostPush;
@@ -66,7 +67,7 @@ fn rust() -> Vec<(&'static str, Members)> {
         fields!("QueueHead", QueueHead { count, one_row, one_layer, unused }),
         fields!("QueueHeads", QueueHeads { at, groups, path_rays, shadow_rays }),
         fields!("ViewTable", ViewTable { film, non_finite, state, queues, heads, picture, origin, size, capacity, seed, frame, max_depth, roulette, clamp_to,
-            filter_kind, object_colors, unused, camera, media }),
+            filter_kind, object_colors, rough_bounces, camera, media }),
         fields!("PostPush", PostPush { film, blocks, state, display, size, block_side, block_count, exposure, factor, ease, tone, vignette,
             center, half_diagonal, aberrates, shrinks, transparent }),
         fields!("Push", Push { tables, scene, view, first_pixel, size, first_sample, sample_count, parity, group }),
@@ -147,6 +148,47 @@ fn collected_rays_lie_alike() {
     assert_eq!(differences(&structs, &rust).len(), 1);
 }
 
+/// What the passes of a hybrid frame are told.
+#[test]
+fn frames_lie_alike() {
+    let structs = shader(&rspirv::dr::load_bytes(lumbre_shaders::hybrid::passes::PLANES).expect("SPIR-V"));
+    let mut push = rust().into_iter().find(|(name, _)| *name == "Push").unwrap().1;
+    push.insert("frame".to_owned(), offset_of!(FramePush, frame) as u32);
+    let mut rust = vec![
+        ("Push", push),
+        fields!(
+            "FrameTable",
+            FrameTable {
+                ids,
+                planes,
+                rays,
+                shadows,
+                glass,
+                heads,
+                sums,
+                sharp_lights,
+                previous_transforms,
+                sharp_light_count,
+                ray_capacity,
+                shadow_capacity,
+                depth,
+                jitter,
+                far,
+                near,
+                ambient,
+                previous
+            }
+        ),
+        fields!(
+            "FrameHeads",
+            FrameHeads { rays, shadows, glass, groups, traced_rays, traced_shadows, dropped }
+        ),
+    ];
+    assert_eq!(differences(&structs, &rust), Vec::<String>::new());
+    *rust[1].1.get_mut("near").unwrap() += 4;
+    assert_eq!(differences(&structs, &rust).len(), 1);
+}
+
 #[test]
 fn a_member_that_moved_is_found() {
     for (moved, (name, fields)) in rust().iter().enumerate() {
@@ -180,5 +222,11 @@ fn shared_constants_are_the_same() {
     use lumbre_shaders::view::queue::{CATCHERS, GLASS, PATHS, SHADOW};
     let lists = [queue("QUEUE_PATHS"), queue("QUEUE_SHADOW"), queue("QUEUE_GLASS"), queue("QUEUE_CATCHERS")];
     assert_eq!(lists, [PATHS, SHADOW, GLASS, CATCHERS].map(u64::from));
+    let frame = |name| glsl("hybrid/frame.glsl", name);
+    use lumbre_shaders::hybrid::{MOST_SHARP, PLANE_QUADS, RAY_QUADS, SHADOW_QUADS};
+    assert_eq!(frame("PLANE_QUADS"), PLANE_QUADS);
+    assert_eq!([frame("RAY_QUADS_PLAIN"), frame("RAY_QUADS")], RAY_QUADS);
+    assert_eq!([frame("SHADOW_QUADS_PLAIN"), frame("SHADOW_QUADS")], SHADOW_QUADS);
+    assert_eq!(glsl("hybrid/sharp_lights.glsl", "MOST_SHARP"), u64::from(MOST_SHARP));
     assert_eq!(glsl("scene/layout.glsl", "RAY_KINDS"), u64::from(lumbre_shaders::layout::RAY_KINDS));
 }

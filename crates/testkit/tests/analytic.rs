@@ -109,6 +109,19 @@ fn depth_counts_scattering_events() {
     }
 }
 
+/// The same by the number of rough bounces before the one that the camera sees; a clear window in the way does not count.
+#[test]
+fn rough_bounces_are_counted() {
+    let mut scene = glowing_sphere(1.0, 0.8);
+    let window = Material { transmission: 1.0, roughness: 0.0, ior: 1.0, ..Material::default() };
+    add(&mut scene, icosphere(Vec3::new(0.1, 0.2, 0.3), 0.2, 2), window);
+    let camera = pinhole(Vec3::new(0.1, 0.2, 0.3), Vec3::new(1.0, 0.3, -0.2), 0.3);
+    for (rough_bounces, expected) in [(0, 1.8), (1, 2.44), (2, 2.952)] {
+        let settings = RenderSettings { rough_bounces: Some(rough_bounces), ..analytic_settings() };
+        check(&scene, camera, settings, expected, &format!("{rough_bounces} rough bounces"));
+    }
+}
+
 /// Row 5: a point light of intensity π: direct ρ I / π, then the series.
 #[test]
 fn point_light_inside_a_sphere() {

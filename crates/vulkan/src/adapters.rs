@@ -56,6 +56,8 @@ pub struct Adapter {
     pub missing: Vec<String>,
     /// What it has beyond that.
     pub features: Features,
+    /// Names of what it lacks for hybrid frames; empty: it draws them.
+    pub lacks_for_hybrid: Vec<String>,
     pub(crate) raw: vk::PhysicalDevice,
     pub(crate) queue_family: u32,
     /// Bits of the clock of its queue; 0: it has none.
@@ -167,6 +169,7 @@ fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Adapter {
         memory: own_memory(&unsafe { instance.get_physical_device_memory_properties(raw) }),
         missing: vec!["Vulkan 1.2".to_owned()],
         features: Features::default(),
+        lacks_for_hybrid: vec!["Vulkan 1.2".to_owned()],
         raw,
         queue_family: 0,
         clock_bits: 0,
@@ -196,6 +199,7 @@ fn describe(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Adapter {
             adapter.queue_family = family;
             adapter.clock_bits = families[family as usize].timestamp_valid_bits;
             adapter.features = offer.features(graphics);
+            adapter.lacks_for_hybrid = offer.lacks_for_hybrid(graphics);
         }
         None => adapter.missing.push("a queue for compute".to_owned()),
     }
@@ -244,6 +248,7 @@ mod tests {
             memory,
             missing: missing.iter().map(|&m| m.to_owned()).collect(),
             features: Features::default(),
+            lacks_for_hybrid: Vec::new(),
             raw: vk::PhysicalDevice::null(),
             queue_family: 0,
             clock_bits: 0,

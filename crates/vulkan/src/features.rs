@@ -23,7 +23,18 @@ pub struct Features {
     pub indirect_launch: bool,
     /// Its queue draws, too.
     pub graphics: bool,
+    /// It has what hybrid frames need.
+    pub hybrid: bool,
 }
+
+/// What a device must have for hybrid frames, for people.
+pub(crate) const HYBRID_NEEDS: [&str; 5] = [
+    "a queue that draws",
+    "multiDrawIndirect",
+    "drawIndirectFirstInstance",
+    "shaderBufferInt64Atomics",
+    "arithmetic of subgroups",
+];
 
 /// The feature structures of a device, to be filled by a query or to be enabled.
 #[derive(Default)]
@@ -40,6 +51,7 @@ pub(crate) struct Offer {
     extensions: Vec<vk::ExtensionProperties>,
     core: vk::PhysicalDeviceFeatures,
     chain: Chain,
+    subgroups: vk::SubgroupFeatureFlags,
 }
 
 impl Offer {
@@ -49,8 +61,17 @@ impl Offer {
         device: vk::PhysicalDevice,
         extensions: Vec<vk::ExtensionProperties>,
     ) -> Self {
-        let mut offer =
-            Offer { extensions, core: vk::PhysicalDeviceFeatures::default(), chain: Chain::default() };
+        let mut v11 = vk::PhysicalDeviceVulkan11Properties::default();
+        let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut v11);
+        // SAFETY: a device of this instance; the chain is alive.
+        unsafe { instance.get_physical_device_properties2(device, &mut properties) };
+        let in_compute = v11.subgroup_supported_stages.contains(vk::ShaderStageFlags::COMPUTE);
+        let mut offer = Offer {
+            extensions,
+            core: vk::PhysicalDeviceFeatures::default(),
+            chain: Chain::default(),
+            subgroups: if in_compute { v11.subgroup_supported_operations } else { Default::default() },
+        };
         let mut chain = Chain::default();
         let mut all =
             vk::PhysicalDeviceFeatures2::default().push_next(&mut chain.v11).push_next(&mut chain.v12);
@@ -98,6 +119,19 @@ impl Offer {
         missing
     }
 
+    /// What of [`HYBRID_NEEDS`] it lacks.
+    pub(crate) fn lacks_for_hybrid(&self, graphics: bool) -> Vec<String> {
+        let subgroups = vk::SubgroupFeatureFlags::ARITHMETIC | vk::SubgroupFeatureFlags::BALLOT;
+        let has = [
+            graphics,
+            self.core.multi_draw_indirect == vk::TRUE,
+            self.core.draw_indirect_first_instance == vk::TRUE,
+            self.chain.v12.shader_buffer_int64_atomics == vk::TRUE,
+            self.subgroups.contains(subgroups),
+        ];
+        HYBRID_NEEDS.iter().zip(has).filter(|(_, has)| !has).map(|(name, _)| (*name).to_owned()).collect()
+    }
+
     /// What it has beyond that.
     pub(crate) fn features(&self, graphics: bool) -> Features {
         Features {
@@ -107,6 +141,7 @@ impl Offer {
             indirect_launch: self.chain.pipeline.ray_tracing_pipeline_trace_rays_indirect == vk::TRUE,
             update_after_bind: self.chain.v12.descriptor_binding_sampled_image_update_after_bind == vk::TRUE,
             graphics,
+            hybrid: self.lacks_for_hybrid(graphics).is_empty(),
         }
     }
 }
@@ -131,6 +166,7 @@ impl Features {
                 .runtime_descriptor_array(true)
                 .shader_sampled_image_array_non_uniform_indexing(true)
                 .descriptor_binding_partially_bound(true)
+                .shader_buffer_int64_atomics(self.hybrid)
                 .descriptor_binding_sampled_image_update_after_bind(self.update_after_bind),
             acceleration: vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default()
                 .acceleration_structure(true),
@@ -143,8 +179,11 @@ impl Features {
     }
 
     /// Core features to enable.
-    pub(crate) fn core() -> vk::PhysicalDeviceFeatures {
-        vk::PhysicalDeviceFeatures::default().shader_int64(true)
+    pub(crate) fn core(&self) -> vk::PhysicalDeviceFeatures {
+        vk::PhysicalDeviceFeatures::default()
+            .shader_int64(true)
+            .multi_draw_indirect(self.hybrid)
+            .draw_indirect_first_instance(self.hybrid)
     }
 }
 

@@ -69,6 +69,7 @@ pub(crate) struct Limits {
     pub(crate) base_alignment: u32,
     pub(crate) max_sampled_images: u32,
     pub(crate) max_image_side: u32,
+    pub(crate) max_draws: u32,
     pub(crate) pipeline_cache_uuid: [u8; 16],
     pub(crate) vendor: u32,
     pub(crate) device: u32,
@@ -280,7 +281,7 @@ fn create_device(instance: &Instance, adapter: &Adapter) -> Result<ash::Device, 
         .queue_family_index(adapter.queue_family)
         .queue_priorities(&[1.0])];
     let extensions: Vec<_> = adapter.features.extensions().iter().map(|e| e.as_ptr()).collect();
-    let core = Features::core();
+    let core = adapter.features.core();
     let mut chain = adapter.features.chain();
     let create = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
@@ -327,6 +328,7 @@ fn limits(instance: &ash::Instance, adapter: &Adapter) -> Limits {
         base_alignment: pipeline.shader_group_base_alignment,
         max_sampled_images: images.saturating_sub(8),
         max_image_side: basic.limits.max_image_dimension2_d,
+        max_draws: basic.limits.max_draw_indirect_count,
         pipeline_cache_uuid: basic.pipeline_cache_uuid,
         vendor: basic.vendor_id,
         device: basic.device_id,

@@ -1,4 +1,4 @@
-//! Images whose texels shaders read.
+//! Images: textures whose texels shaders read, and targets of the rasteriser.
 
 use crate::buffer::Buffer;
 use crate::commands::Commands;
@@ -9,15 +9,29 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::Allocation;
 
-/// An RGBA8 image of one level.
+/// An image of one level.
 pub(crate) struct Image {
     gpu: Gpu,
-    raw: vk::Image,
+    pub(crate) raw: vk::Image,
     allocation: Option<Allocation>,
     pub(crate) view: vk::ImageView,
 }
 
-const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
+/// What an image is for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ImageUse {
+    pub(crate) format: vk::Format,
+    pub(crate) usage: vk::ImageUsageFlags,
+    pub(crate) aspect: vk::ImageAspectFlags,
+}
+
+const TEXTURE: ImageUse = ImageUse {
+    format: vk::Format::R8G8B8A8_UNORM,
+    usage: vk::ImageUsageFlags::from_raw(
+        vk::ImageUsageFlags::SAMPLED.as_raw() | vk::ImageUsageFlags::TRANSFER_DST.as_raw(),
+    ),
+    aspect: vk::ImageAspectFlags::COLOR,
+};
 const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     aspect_mask: vk::ImageAspectFlags::COLOR,
     base_mip_level: 0,
@@ -27,23 +41,15 @@ const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
 };
 
 impl Image {
-    /// An image with these texels, row by row from the top.
-    pub(crate) fn new(
+    /// A texture, RGBA8, with these texels, row by row from the top.
+    pub(crate) fn texture(
         upload: &mut Upload,
         name: &str,
         [width, height]: [u32; 2],
         texels: &[u32],
     ) -> Result<Self, VulkanError> {
         let gpu = upload.gpu().clone();
-        let mut image = Self::empty(&gpu, name, [width, height])?;
-        let device = &gpu.0.raw;
-        let create = vk::ImageViewCreateInfo::default()
-            .image(image.raw)
-            .view_type(vk::ImageViewType::TYPE_2D)
-            .format(FORMAT)
-            .subresource_range(COLOR);
-        // SAFETY: a live image.
-        image.view = unsafe { device.create_image_view(&create, None) }.called("vkCreateImageView")?;
+        let image = Self::empty(&gpu, name, [width, height], &TEXTURE)?;
         // A row is far below a chunk: sides are bounded.
         let rows = (CHUNK / (4 * u64::from(width))).max(1) as usize;
         for (i, some) in texels.chunks(rows * width as usize).enumerate() {
@@ -70,16 +76,21 @@ impl Image {
         Ok(image)
     }
 
-    /// Without content and views.
-    fn empty(gpu: &Gpu, name: &str, [width, height]: [u32; 2]) -> Result<Self, VulkanError> {
+    /// Without content.
+    pub(crate) fn empty(
+        gpu: &Gpu,
+        name: &str,
+        [width, height]: [u32; 2],
+        what: &ImageUse,
+    ) -> Result<Self, VulkanError> {
         let create = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
-            .format(FORMAT)
+            .format(what.format)
             .extent(vk::Extent3D { width, height, depth: 1 })
             .mip_levels(1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
+            .usage(what.usage);
         let device = &gpu.0.raw;
         // SAFETY: a live device; what is made is destroyed by `drop`.
         let raw = unsafe { device.create_image(&create, None) }.called("vkCreateImage")?;
@@ -90,6 +101,13 @@ impl Image {
         let (memory, offset) = unsafe { (allocation.memory(), allocation.offset()) };
         image.allocation = Some(allocation);
         unsafe { device.bind_image_memory(raw, memory, offset) }.called("vkBindImageMemory")?;
+        let range = vk::ImageSubresourceRange { aspect_mask: what.aspect, ..COLOR };
+        let create = vk::ImageViewCreateInfo::default()
+            .image(raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(what.format)
+            .subresource_range(range);
+        image.view = unsafe { device.create_image_view(&create, None) }.called("vkCreateImageView")?;
         gpu.0.name(raw, name);
         Ok(image)
     }

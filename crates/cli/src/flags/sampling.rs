@@ -29,6 +29,8 @@ pub(crate) enum Filter {
     Gaussian,
     /// Radius 1.5 pixels
     BlackmanHarris,
+    /// None: all samples at the centre of their pixel
+    Point,
 }
 
 /// A switch.
@@ -74,6 +76,11 @@ pub(crate) struct SamplingArgs {
     /// Most scattering events on a path. [default: 16]
     #[arg(long, value_name = "N|unlimited", allow_negative_numbers = true, value_parser = depth)]
     pub(crate) max_depth: Option<Depth>,
+
+    /// How often surfaces that are no mirrors or clear glass may throw light on others: 0 leaves direct light, 1 adds what
+    /// arrives by one such surface. [default: unlimited]
+    #[arg(long, value_name = "N|unlimited", allow_negative_numbers = true, value_parser = depth)]
+    pub(crate) rough_bounces: Option<Depth>,
 
     /// First scattering event after which Russian roulette may end a path. [default: 4]
     #[arg(long, value_name = "N|off", allow_negative_numbers = true, value_parser = roulette)]
@@ -125,6 +132,7 @@ impl SamplingArgs {
             Filter::Tent => FilterKind::Tent,
             Filter::Gaussian => FilterKind::Gaussian,
             Filter::BlackmanHarris => FilterKind::BlackmanHarris,
+            Filter::Point => FilterKind::Point,
         });
         let shadows = self.transmissive_shadows.map(|s| match s {
             Shadows::Auto => TransmissiveShadows::Auto,
@@ -137,6 +145,7 @@ impl SamplingArgs {
         });
         RenderSettings {
             max_depth: self.max_depth.map_or(base.max_depth, |d| d.0),
+            rough_bounces: self.rough_bounces.map_or(base.rough_bounces, |d| d.0),
             roulette: self.roulette.map_or(base.roulette, |r| r.0),
             sampler: sampler.unwrap_or(base.sampler),
             seed: self.seed.unwrap_or(base.seed),
@@ -189,6 +198,7 @@ mod tests {
             // Over settings that differ from the default in everything, it brings the default back.
             let other = RenderSettings {
                 max_depth: None,
+                rough_bounces: Some(1),
                 roulette: None,
                 sampler: SamplerKind::Independent,
                 seed: 9,
@@ -203,7 +213,7 @@ mod tests {
                 let (a, b) = (described(s), described(&RenderSettings::default()));
                 a.into_iter().zip(b).filter(|(a, b)| a != b).count()
             };
-            assert_eq!((differing(&other), differing(&given.settings(other))), (9, 8), "{flag}");
+            assert_eq!((differing(&other), differing(&given.settings(other))), (10, 9), "{flag}");
         }
     }
 }

@@ -33,11 +33,12 @@ fn meaning<T: Copy>(list: &[(&'static str, T)], word: &str) -> T {
 
 const SAMPLERS: [(&str, SamplerKind); 2] =
     [("sobol", SamplerKind::Sobol), ("independent", SamplerKind::Independent)];
-const FILTERS: [(&str, FilterKind); 4] = [
+const FILTERS: [(&str, FilterKind); 5] = [
     ("box", FilterKind::Box),
     ("tent", FilterKind::Tent),
     ("gaussian", FilterKind::Gaussian),
     ("blackman-harris", FilterKind::BlackmanHarris),
+    ("point", FilterKind::Point),
 ];
 const SHADOWS: [(&str, TransmissiveShadows); 3] = [
     ("auto", TransmissiveShadows::Auto),
@@ -82,6 +83,15 @@ pub(super) const SETTINGS: &[OfPaths] = &[
         Access {
             get: |s| s.max_depth.map_or(Value::Word("unlimited"), Value::Whole),
             set: |s, v| s.max_depth = v.as_whole(),
+        },
+    ),
+    OfPaths::new(
+        "roughBounces",
+        "Rough bounces",
+        EVENTS,
+        Access {
+            get: |s| s.rough_bounces.map_or(Value::Word("unlimited"), Value::Whole),
+            set: |s, v| s.rough_bounces = v.as_whole(),
         },
     ),
     OfPaths::new(

@@ -47,6 +47,7 @@ Path path_new(Ray ray, Sampler smp) {
     path.travelled = 0.0;
     path.alpha = 1.0;
     path.depth = 0u;
+    path.rough = 0u;
     path.has_hit = false;
     path.asked = 0u;
     return path;

@@ -40,12 +40,15 @@ float surface_coverage(uint material, HitAttributes at) {
 }
 
 // True when the ray of `key` finds the surface there.
+bool covered_at(uint instance, uint triangle, uint material, HitAttributes at, uint key) {
+    return to_unit(hash_combine(hash_combine(key, instance), triangle)) < surface_coverage(material, at);
+}
+
 bool covered(Hit hit, uint material, uint key) {
     if (!HAS_COVERED || (MATERIAL(material).flags & (FLAG_ALPHA_MASK | FLAG_ALPHA_BLEND)) == 0u) {
         return true;
     }
-    float u = to_unit(hash_combine(hash_combine(key, hit.instance), hit.triangle));
-    return u < surface_coverage(material, hit_attributes(hit));
+    return covered_at(hit.instance, hit.triangle, material, hit_attributes(hit), key);
 }
 
 #endif

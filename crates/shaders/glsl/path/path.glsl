@@ -181,6 +181,7 @@ void path_step(inout Path path, Interaction it, Surface surface, BsdfSample s, v
         path.through_solid = false;
         path.arrival_pdf = s.pdf;
         path.seen_by_camera = false;
+        path.rough += 1u;
     }
 }
 
@@ -230,7 +231,7 @@ Scattered path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo
     near.present = false;
     far.unshadowed = vec3(0.0);
     near.unshadowed = vec3(0.0);
-    if (LIGHT_SAMPLING && bsdf_has_smooth_lobes(surface.bsdf)) {
+    if (LIGHT_SAMPLING && path.rough <= push.view.rough_bounces && bsdf_has_smooth_lobes(surface.bsdf)) {
         // One call for both groups: each is compiled in full.
         for (uint group = FIRST_GROUP; group < END_GROUP; ++group) {
             bool second = HAS_BOTH_GROUPS && group == GROUP_NEAR;
@@ -268,7 +269,7 @@ Scattered path_scatter(inout Path path, Interaction it, Surface surface, vec3 wo
         bsdf_sample(surface.bsdf, wo_local, lobe, sampler_direction(path.smp, path.depth), TRANSPORT_RADIANCE, s);
     result.alive = false;
     result.waits = false;
-    if (!scatters) {
+    if (!scatters || (!lobe_is_delta(s.lobe) && path.rough > push.view.rough_bounces)) {
         return result;
     }
     vec3 wi = normalize(frame_to_world(surface.frame, s.wi));

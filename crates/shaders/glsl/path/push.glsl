@@ -71,7 +71,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Vie
     uint filter_kind;
     // 1: the plane of albedo holds a colour for each object.
     uint object_colors;
-    uint unused;
+    // Most scattering events at lobes that are not delta lobes before the last one.
+    uint rough_bounces;
     CameraRecord camera;
     // The media around the camera.
     MediumStack media;
@@ -91,6 +92,9 @@ layout(push_constant, scalar) uniform Push {
     uint parity;
     // Which group of lights shadow rays go to.
     uint group;
+#ifdef HYBRID
+    FrameTable frame;
+#endif
 #ifdef COLLECTS
     // Where replay/collect.comp writes rays, and what they found.
     ReplayRays rays;

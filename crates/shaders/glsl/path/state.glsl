@@ -40,6 +40,8 @@ struct Path {
     float alpha;
     // Scattering events so far.
     uint depth;
+    // Of them those at lobes that are not delta lobes.
+    uint rough;
     // It has met a surface, whose planes are kept.
     bool has_hit;
     // Shadow rays whose light has not been added yet: bits ASKED_….
@@ -172,7 +174,7 @@ void path_store_end(uint id, Path path) {
     uint bits = (path.through_solid ? 1u : 0u) | (path.seen_by_camera ? 2u : 0u) | (path.straight ? 4u : 0u)
         | (path.caught << 3) | (path.asked << 10) | (path.has_hit ? 1u << 14 : 0u) | (path.depth << 15);
     state.at[STATE_RADIANCE * n + id] = floatBitsToUint(vec4(path.radiance, path.alpha));
-    state.at[STATE_BITS * n + id] = uvec4(bits, floatBitsToUint(vec2(path.wavelength, path.eta_scale)), 0u);
+    state.at[STATE_BITS * n + id] = uvec4(bits, floatBitsToUint(vec2(path.wavelength, path.eta_scale)), path.rough);
 }
 
 // A path that goes on: all but the hit and the planes of the first one.
@@ -227,6 +229,7 @@ Path path_load(uint id) {
     path.alpha = radiance.w;
     path.wavelength = uintBitsToFloat(more.y);
     path.eta_scale = uintBitsToFloat(more.z);
+    path.rough = more.w;
     path.through_solid = (bits & 1u) != 0u;
     path.seen_by_camera = (bits & 2u) != 0u;
     path.straight = (bits & 4u) != 0u;

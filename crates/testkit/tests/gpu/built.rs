@@ -24,7 +24,7 @@ fn lights_and_cameras() {
     let base = lamps_view(SHOT.aspect());
     let settings = |settings: RenderSettings| View { settings, ..base.clone() };
     let mut faults = both.faults("lights", &base, &SHOT);
-    for filter in [FilterKind::Box, FilterKind::Tent, FilterKind::Gaussian] {
+    for filter in [FilterKind::Box, FilterKind::Tent, FilterKind::Gaussian, FilterKind::Point] {
         let view = settings(RenderSettings { filter, ..base.settings });
         faults.extend(both.faults(&format!("{filter:?}"), &view, &SHOT));
     }
@@ -39,6 +39,10 @@ fn lights_and_cameras() {
     faults.extend(both.faults("roulette from the first event", &settings(deep), &SHOT));
     let shallow = RenderSettings { max_depth: Some(1), roulette: None, ..base.settings };
     faults.extend(both.faults("depth 1", &settings(shallow), &SHOT));
+    for rough_bounces in [Some(0), Some(1)] {
+        let view = settings(RenderSettings { rough_bounces, ..base.settings });
+        faults.extend(both.faults(&format!("rough bounces: {rough_bounces:?}"), &view, &SHOT));
+    }
     let window = Film::window([300, 225], Crop { origin: [171, 90], size: SHOT.size });
     faults.extend(both.faults_in("a window", &base, &window, &SHOT));
     assert_none(&faults);

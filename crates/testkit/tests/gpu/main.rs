@@ -4,6 +4,7 @@ mod built;
 mod canvas;
 mod common;
 mod hits;
+mod hybrid;
 mod own_rays;
 mod paired;
 mod planted;

@@ -25,6 +25,7 @@ const ROULETTE: RenderSettings = RenderSettings { roulette: Some(1), seed: 3, ..
 /// Independent samples, depth of 12, no roulette, glass as it is.
 pub(super) const BASE: RenderSettings = RenderSettings {
     max_depth: Some(12),
+    rough_bounces: None,
     roulette: None,
     sampler: lumbre_core::sampler::SamplerKind::Independent,
     seed: 1,

@@ -10,8 +10,8 @@ use lumbre_core::ray::offset_ray_origin;
 use lumbre_shaders::camera::CameraRecord;
 use lumbre_shaders::tables::tables;
 
-const FILTERS: [FilterKind; 4] =
-    [FilterKind::Box, FilterKind::Tent, FilterKind::Gaussian, FilterKind::BlackmanHarris];
+const FILTERS: [FilterKind; 5] =
+    [FilterKind::Box, FilterKind::Tent, FilterKind::Gaussian, FilterKind::BlackmanHarris, FilterKind::Point];
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -79,7 +79,7 @@ fn input(row: u32) -> (Camera, Input) {
         film: [number(n), number(n)],
         lens: [number(n), number(n)],
         time: n.unit(),
-        filter_kind: n.below(4),
+        filter_kind: n.below(5),
         in_pixel: [number(n), number(n)],
         p,
         ng: n.direction(),
@@ -89,7 +89,7 @@ fn input(row: u32) -> (Camera, Input) {
     (camera, input)
 }
 
-fn twin(camera: &Camera, i: &Input, filters: &[Filter; 4]) -> Output {
+fn twin(camera: &Camera, i: &Input, filters: &[Filter; 5]) -> Output {
     let ray = camera.ray(i.film, i.lens, i.time);
     Output {
         origin: ray.origin.to_array(),
@@ -128,7 +128,7 @@ fn other_cameras_and_filters_are_found() {
         camera.projection = camera.projection.scaled(1.01);
         camera.aspect *= 1.01;
         camera.origin *= 1.01;
-        input.filter_kind = (input.filter_kind + 1) % 4;
+        input.filter_kind = (input.filter_kind + 1) % 5;
         input.ng = input.ng.map(|x| -1.5 * x);
     }) else {
         return;

@@ -127,6 +127,11 @@ impl Accel {
         upload.finish()
     }
 
+    /// Which structures there are, and what their geometries are.
+    pub(crate) fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
     /// The top-level structure.
     ///
     /// # Panics

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod edited;
+mod hybrid;
 mod own_rays;
 
 pub use canvas::Canvas;
@@ -13,6 +14,7 @@ use super::media::Solids;
 use super::passes::{Extent, HeadsReadback, LEAST_PATHS, MOST_PATHS, Passes, Paths, paths_per_sample};
 use super::slices::{Pace, Slice, Slices};
 use super::variant::{Needs, SceneConstants};
+use crate::hybrid::HybridScene;
 use crate::{
     Buffer, Gpu, Pending, PipelineCache, SceneOnGpu, SceneOptions, Specialisation, Timer, Upload, VulkanError,
 };
@@ -47,6 +49,7 @@ pub struct VulkanBackend {
     constants: SceneConstants,
     tables: Buffer,
     cache: PipelineCache,
+    hybrid: HybridScene,
     /// Why the scene cannot be drawn, after an update that failed.
     failed: Option<VulkanError>,
     /// One render at a time.
@@ -67,6 +70,7 @@ struct Work {
     #[cfg(feature = "shader-reload")]
     watched: super::code::Watched,
     variants: Vec<Variant>,
+    hybrid: crate::hybrid::Kept,
     film: Option<FilmOnGpu>,
     canvas: Option<canvas::Kept>,
     paths: Option<Paths>,
@@ -83,6 +87,7 @@ impl Work {
             #[cfg(feature = "shader-reload")]
             watched: super::code::Watched::default(),
             variants: Vec::new(),
+            hybrid: Vec::new(),
             film: None,
             canvas: None,
             paths: None,
@@ -151,6 +156,7 @@ impl VulkanBackend {
         let on_gpu = gpu.scene(scene, options)?;
         let mut upload = Upload::new(gpu);
         let tables = Buffer::with_content(&mut upload, "tables of numbers", &shaders::tables::tables())?;
+        let hybrid = HybridScene::new(&mut upload, scene)?;
         upload.finish()?;
         Ok(VulkanBackend {
             gpu: gpu.clone(),
@@ -159,6 +165,7 @@ impl VulkanBackend {
             constants: SceneConstants::new(scene),
             tables,
             cache: PipelineCache::open(gpu),
+            hybrid,
             failed: None,
             work: Mutex::new(Work::new()),
         })
@@ -385,11 +392,7 @@ impl VulkanBackend {
             work.paths = None;
             work.paths = Some(self.room(paths.next_power_of_two(), solids)?);
         }
-        let eye = view.camera.origin;
-        let media = match work.media {
-            Some((at, media)) if at == eye => media,
-            _ => work.media.insert((eye, self.solids.around(eye))).1,
-        };
+        let media = self.media_around(work, view.camera.origin);
         let table = self.view_table(view, target, work.paths.as_ref().expect("made above"), &media);
         let mut upload = Upload::new(&self.gpu);
         let table = Buffer::with_content(&mut upload, "view", bytemuck::bytes_of(&table))?;
@@ -444,9 +447,17 @@ impl VulkanBackend {
             clamp_to: settings.clamp.unwrap_or(f32::INFINITY),
             filter_kind: settings.filter as u32,
             object_colors: settings.object_colors.into(),
-            unused: 0,
+            rough_bounces: settings.rough_bounces.unwrap_or(u32::MAX),
             camera: (&view.camera).into(),
             media: media.into(),
+        }
+    }
+
+    /// The solids around the camera.
+    fn media_around(&self, work: &mut Work, eye: Vec3) -> MediumStack {
+        match work.media {
+            Some((at, media)) if at == eye => media,
+            _ => work.media.insert((eye, self.solids.around(eye))).1,
         }
     }
 
@@ -501,12 +512,7 @@ impl Submitted {
         self.0.wait()?;
         let ms = flight.timer.milliseconds()?;
         for (pair, name) in ms.windows(2).zip(self.1) {
-            let at = times.iter().position(|t| t.name == name).unwrap_or_else(|| {
-                times.push(PassTime { name, ..PassTime::default() });
-                times.len() - 1
-            });
-            times[at].count += 1;
-            times[at].total_ms += pair[1] - pair[0];
+            PassTime::add(times, name, pair[1] - pair[0]);
         }
         Ok(())
     }

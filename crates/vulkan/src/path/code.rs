@@ -8,15 +8,15 @@ use crate::{HitShaders, RayShaders};
 use lumbre_shaders::{self as shaders, passes};
 
 /// SPIR-V of each stage.
-pub(super) struct Code {
-    pub(super) generate: Stage,
-    pub(super) advance: Stage,
-    pub(super) trace: Stage,
-    pub(super) shade: Stage,
-    pub(super) shadow: Stage,
-    pub(super) glass: Stage,
-    pub(super) catch: Stage,
-    pub(super) gather: Stage,
+pub(crate) struct Code {
+    pub(crate) generate: Stage,
+    pub(crate) advance: Stage,
+    pub(crate) trace: Stage,
+    pub(crate) shade: Stage,
+    pub(crate) shadow: Stage,
+    pub(crate) glass: Stage,
+    pub(crate) catch: Stage,
+    pub(crate) gather: Stage,
     radiance_rchit: Stage,
     radiance_rahit: Stage,
     radiance_rmiss: Stage,
@@ -28,7 +28,7 @@ type Stage = std::borrow::Cow<'static, [u8]>;
 
 /// Rays that a pass traces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kinds {
+pub(crate) enum Kinds {
     /// Those that look for the closest surface.
     Radiance,
     /// Those that ask whether light arrives.
@@ -38,7 +38,7 @@ pub(super) enum Kinds {
 
 impl Code {
     /// That of `lumbre-shaders`.
-    pub(super) fn embedded() -> Self {
+    pub(crate) fn embedded() -> Self {
         Code {
             generate: passes::GENERATE.into(),
             advance: passes::ADVANCE.into(),
@@ -59,7 +59,7 @@ impl Code {
     /// The shaders of a pass that traces rays of these kinds. Class by class as `HitClass` has them: opaque surfaces ask nothing; transmissive
     /// ones are asked by shadow rays, those that are there only in part by all. What the pass or the scene does not need is not compiled;
     /// its places in the table stay.
-    pub(super) fn rays<'a>(&'a self, raygen: &'a [u8], kinds: Kinds, needs: &Needs) -> RayShaders<'a> {
+    pub(crate) fn rays<'a>(&'a self, raygen: &'a [u8], kinds: Kinds, needs: &Needs) -> RayShaders<'a> {
         let (radiance, shadow) = (kinds != Kinds::Shadow, kinds != Kinds::Radiance);
         let closest = HitShaders { closest: radiance.then_some(&*self.radiance_rchit), any: None };
         let covered =
@@ -86,7 +86,7 @@ impl Code {
 }
 
 #[cfg(feature = "shader-reload")]
-pub(super) use reload::Watched;
+pub(crate) use reload::Watched;
 
 #[cfg(feature = "shader-reload")]
 mod reload {

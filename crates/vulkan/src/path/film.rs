@@ -1,11 +1,11 @@
 //! The film on the device: exact sums of its pixels, and the list of samples that were not finite.
 
-use crate::{Buffer, Gpu, Purpose, VulkanError};
+use crate::{Buffer, Commands, Gpu, Purpose, VulkanError};
 use lumbre_core::film::{Film, PixelSums};
 use lumbre_shaders::film::{NON_FINITE_BYTES, non_finite};
 
 /// Sums of a film, and samples that were not finite.
-pub(super) struct FilmOnGpu {
+pub(crate) struct FilmOnGpu {
     pixels: u64,
     sums: Buffer,
     non_finite: Buffer,
@@ -18,7 +18,7 @@ impl FilmOnGpu {
     ///
     /// # Errors
     /// If memory is out.
-    pub(super) fn new(gpu: &Gpu, pixels: u64) -> Result<Self, VulkanError> {
+    pub(crate) fn new(gpu: &Gpu, pixels: u64) -> Result<Self, VulkanError> {
         let sums = pixels * size_of::<PixelSums>() as u64;
         let list = NON_FINITE_BYTES as u64;
         Ok(FilmOnGpu {
@@ -30,12 +30,12 @@ impl FilmOnGpu {
     }
 
     /// Pixels that it has room for.
-    pub(super) fn pixels(&self) -> u64 {
+    pub(crate) fn pixels(&self) -> u64 {
         self.pixels
     }
 
     /// Addresses of sums and list.
-    pub(super) fn addresses(&self) -> [u64; 2] {
+    pub(crate) fn addresses(&self) -> [u64; 2] {
         [self.sums.address(), self.non_finite.address()]
     }
 
@@ -43,7 +43,7 @@ impl FilmOnGpu {
     ///
     /// # Errors
     /// If the device is lost.
-    pub(super) fn empty(&self, gpu: &Gpu) -> Result<(), VulkanError> {
+    pub(crate) fn empty(&self, gpu: &Gpu) -> Result<(), VulkanError> {
         gpu.run("clearing the film", |commands| {
             commands.fill(&self.sums, 0);
             commands.fill(&self.non_finite, 0);
@@ -51,11 +51,16 @@ impl FilmOnGpu {
         })
     }
 
+    /// Before a frame that writes all sums: forgets samples that were not finite.
+    pub(crate) fn begin(&self, commands: &Commands<'_>) {
+        commands.fill(&self.non_finite, 0);
+    }
+
     /// Adds what it holds to a film of as many pixels.
     ///
     /// # Errors
     /// If the device is lost; the film is then as it was.
-    pub(super) fn read(&self, gpu: &Gpu, film: &mut Film) -> Result<(), VulkanError> {
+    pub(crate) fn read(&self, gpu: &Gpu, film: &mut Film) -> Result<(), VulkanError> {
         let sums = film.pixels().len() as u64 * size_of::<PixelSums>() as u64;
         let list = NON_FINITE_BYTES as u64;
         gpu.run("reading the film", |commands| {

@@ -1,11 +1,11 @@
 //! The path tracer: a scene on a GPU, rendered into films.
 
 mod backend;
-mod code;
-mod film;
+pub(crate) mod code;
+pub(crate) mod film;
 mod media;
 mod passes;
 mod slices;
-mod variant;
+pub(crate) mod variant;
 
 pub use backend::{Canvas, OwnRays, RayBatch, VulkanBackend};

@@ -12,30 +12,30 @@ use lumbre_scene::compiled::material::{LobesRecord, MaterialRecord, TextureUse, 
 
 /// What a scene has.
 #[derive(Clone, Debug)]
-pub(super) struct SceneConstants {
+pub(crate) struct SceneConstants {
     constants: Specialisation,
     /// Which passes it needs.
-    pub(super) needs: Needs,
+    pub(crate) needs: Needs,
 }
 
 /// Passes and memory that only some scenes need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Needs {
+pub(crate) struct Needs {
     /// Lights of each group: far, near.
-    pub(super) lights: [bool; 2],
+    pub(crate) lights: [bool; 2],
     /// Surfaces that let light through.
-    pub(super) transmission: bool,
+    pub(crate) transmission: bool,
     /// Solids that paths enter.
-    pub(super) solids: bool,
+    pub(crate) solids: bool,
     /// Shadow catchers.
-    pub(super) catchers: bool,
+    pub(crate) catchers: bool,
     /// Surfaces that are there only in part.
-    pub(super) covered: bool,
+    pub(crate) covered: bool,
 }
 
 impl SceneConstants {
     /// Looks the scene over.
-    pub(super) fn new(scene: &CompiledScene) -> Self {
+    pub(crate) fn new(scene: &CompiledScene) -> Self {
         let constants = light_constants(Specialisation::new(), scene);
         let constants = material_constants(constants, scene);
         let any = |has: fn(&LobesRecord) -> bool| scene.lobes.iter().any(has);
@@ -62,12 +62,12 @@ impl SceneConstants {
     /// Groups of lights, sun and environment are exact: shaders do not ask whether a sun that they know of is there, and a vertex that asks
     /// two groups of lights takes other numbers of the random stream. So are solids and transmission: with their code in it a compiler
     /// places other roundings (some samples differ in the last bit on llvmpipe).
-    pub(super) fn serves(made: &Specialisation, asked: &Specialisation) -> bool {
+    pub(crate) fn serves(made: &Specialisation, asked: &Specialisation) -> bool {
         made.covers(asked, |id| matches!(id, 10..=12 | 14..=20 | 52 | 53 | 56..=59 | 61..=63))
     }
 
     /// With the settings of a render.
-    pub(super) fn with(&self, settings: &RenderSettings) -> Specialisation {
+    pub(crate) fn with(&self, settings: &RenderSettings) -> Specialisation {
         settings_constants(self.constants.clone(), settings)
     }
 }

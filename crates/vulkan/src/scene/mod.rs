@@ -9,6 +9,7 @@ use crate::buffer::Buffer;
 use crate::descriptors::Descriptors;
 use crate::error::VulkanError;
 use crate::gpu::Gpu;
+use crate::raster::Draws;
 use crate::upload::Upload;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use geometry::Geometry;
@@ -47,6 +48,8 @@ pub struct SceneOnGpu {
     mesh_tables: Buffer,
     texture_tables: Buffer,
     pub(crate) descriptors: Arc<Descriptors>,
+    /// What the rasteriser draws of it.
+    pub(crate) draws: Draws,
 }
 
 impl Gpu {
@@ -63,6 +66,7 @@ impl Gpu {
             Ok((part, Buffer::with_content(&mut upload, name, content)?))
         };
         let arrays = arrays(scene).into_iter().map(array).collect::<Result<_, VulkanError>>()?;
+        let draws = Draws::new(&mut upload, scene, accel.plan())?;
         let mut add = |name, content: &[u8]| Buffer::with_content(&mut upload, name, content);
         let made = SceneOnGpu {
             gpu: self.clone(),
@@ -75,6 +79,7 @@ impl Gpu {
             textures,
             geometry,
             arrays,
+            draws,
         };
         upload.write(&made.table, 0, bytes_of(&made.table_of(scene)))?;
         upload.finish()?;
@@ -115,6 +120,11 @@ impl SceneOnGpu {
         self.table.address()
     }
 
+    /// Where the transforms of instances lie.
+    pub(crate) fn transforms(&self) -> u64 {
+        self.arrays.iter().find(|a| a.0 == Part::Transforms).expect("one of the arrays").1.address()
+    }
+
     /// What there is of acceleration structures and what making them took.
     pub fn accel(&self) -> &AccelReport {
         &self.accel.report
@@ -152,6 +162,7 @@ impl SceneOnGpu {
         }
         if changes.any(&[Part::Materials, Part::Instances, Part::Transforms]) {
             self.accel.update(&self.gpu, scene, &self.geometry, changes)?;
+            self.draws = Draws::new(&mut upload, scene, self.accel.plan())?;
             // Another structure may have the handle of one that is gone.
             self.descriptors.write_top(self.accel.top());
         }

@@ -65,7 +65,7 @@ impl Textures {
             if let std::collections::btree_map::Entry::Vacant(free) = images.entry(at) {
                 free.insert(self._images.len());
                 let name = format!("texture {id}");
-                self._images.push(Image::new(upload, &name, [t.width, t.height], texels(scene, &at))?);
+                self._images.push(Image::texture(upload, &name, [t.width, t.height], texels(scene, &at))?);
             }
             self.views.push(self._images[images[&at]].view);
         }

@@ -1,8 +1,9 @@
 //! A scene that was edited: what changed goes to the device, and the rest stays.
 
 use super::VulkanBackend;
-use crate::VulkanError;
+use crate::hybrid::HybridScene;
 use crate::path::variant::SceneConstants;
+use crate::{Upload, VulkanError};
 use lumbre_scene::{CompiledScene, Part, SceneChanges};
 use std::sync::PoisonError;
 
@@ -24,6 +25,7 @@ impl VulkanBackend {
         let work = self.work.get_mut().unwrap_or_else(PoisonError::into_inner);
         if self.scene.update(scene, changes)? {
             work.variants.clear();
+            work.hybrid.clear();
         }
         let moved = changes.geometry() || changes.any(&[Part::Instances, Part::Transforms]);
         if moved || changes.has(Part::Materials) {
@@ -31,6 +33,8 @@ impl VulkanBackend {
             work.media = None;
         }
         self.constants = SceneConstants::new(scene);
-        Ok(())
+        let mut upload = Upload::new(&self.gpu);
+        self.hybrid = HybridScene::new(&mut upload, scene)?;
+        upload.finish()
     }
 }

@@ -1,0 +1,152 @@
+// What the passes of a hybrid frame share beside path/push.glsl: planes of what the camera sees, rays and shadow rays under way, sums of light.
+// Twins of the layout: shaders/src/hybrid.rs.
+//
+// To be included first: it adds a member to the push constants of the path tracer, so that surfaces, lights and rays are its own.
+#ifndef HYBRID_FRAME_GLSL
+#define HYBRID_FRAME_GLSL
+
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+
+#include "camera.glsl"
+
+struct ListHead {
+    // An indirect launch of one ray each: VkTraceRaysIndirectCommandKHR.
+    uint count;
+    uint one_row;
+    uint one_layer;
+    uint unused;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FrameHeads {
+    // Rays: one list is read while the other is written.
+    ListHead rays[2];
+    // Shadow rays, likewise.
+    ListHead shadows[2];
+    // Those of them that meet what lets light through.
+    ListHead glass[2];
+    // An indirect dispatch of groups that shade: VkDispatchIndirectCommand.
+    uint groups[3];
+    // Rays traced in this frame: from surfaces, to lights, and those for which there was no room.
+    uint traced_rays;
+    uint traced_shadows;
+    uint dropped;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FrameQuads {
+    uvec4 at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FrameIds {
+    uvec2 at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FrameSums {
+    uint64_t at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FrameNumbers {
+    uint at[];
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FrameTable {
+    // What the rasteriser saw of each pixel: geometry, primitive; NONE: nothing.
+    FrameIds ids;
+    // PLANE_QUADS times four words of each pixel.
+    FrameQuads planes;
+    // Two lists of `ray_capacity` rays: RAY_QUADS times four words each.
+    FrameQuads rays;
+    // Two lists of `shadow_capacity` shadow rays: SHADOW_QUADS times four words each.
+    FrameQuads shadows;
+    // Two lists of `shadow_capacity` numbers of shadow rays.
+    FrameNumbers glass;
+    FrameHeads heads;
+    // Light of each pixel, three sums of quanta.
+    FrameSums sums;
+    // Lights with sharp shadows.
+    FrameNumbers sharp_lights;
+    // Transforms as they were in the frame before.
+    uint64_t previous_transforms;
+    uint sharp_light_count;
+    uint ray_capacity;
+    uint shadow_capacity;
+    // Most rays one after another, the camera's not counted.
+    uint depth;
+    // Where in their pixels the camera looks, from the centre, pixels.
+    vec2 jitter;
+    // For cameras whose rays are parallel: metres that are drawn.
+    float far;
+    // Nearest distance that is drawn, metres.
+    float near;
+    // Radiance that stands for what no ray brings.
+    vec3 ambient;
+    // The camera of the frame before.
+    CameraRecord previous;
+};
+
+#define HYBRID
+#include "path/push.glsl"
+#include "path/hit.glsl"
+#include "sampler.glsl"
+#include "variants.glsl"
+#include "bsdf/features.glsl"
+
+// Planes of a pixel.
+const uint PLANE_NORMAL = 0u; // shading normal, distance along the camera's ray
+const uint PLANE_ALBEDO = 1u; // albedo; roughness and specularity as halves
+const uint PLANE_POSITION = 2u; // position; instance, NONE for the sky
+const uint PLANE_MOTION = 3u; // from here to where it was, pixels; shares reflected and let through as halves; index of refraction
+const uint PLANE_EMISSION = 4u; // emitted radiance; material
+const uint PLANE_QUADS = 5u;
+
+// Four words of a ray.
+const uint RAY_ORIGIN = 0u; // origin; once traced the distance
+const uint RAY_DIRECTION = 1u; // direction; depth
+const uint RAY_BETA = 2u; // throughput; pixel
+const uint RAY_HIT = 3u; // geometry, primitive, barycentrics
+const uint RAY_MEDIA = 4u; // two, where the scene has solids
+const uint RAY_QUADS_PLAIN = 4u;
+const uint RAY_QUADS = 6u;
+
+// Four words of a shadow ray.
+const uint SHADOW_ORIGIN = 0u; // origin; length
+const uint SHADOW_DIRECTION = 1u; // direction; depth, and SHADOW_PASSES
+const uint SHADOW_LIGHT = 2u; // what it brings; pixel
+const uint SHADOW_MEDIA = 3u; // two, where the scene has solids
+const uint SHADOW_QUADS_PLAIN = 3u;
+const uint SHADOW_QUADS = 5u;
+
+// Solids let this light through straight.
+const uint SHADOW_PASSES = 0x80000000u;
+
+uint frame_pixels() {
+    return push.view.size.x * push.view.size.y;
+}
+
+#define PLANE(place, pixel) push.frame.planes.at[(place) * frame_pixels() + (pixel)]
+
+uint ray_at_place(uint list, uint place, uint index) {
+    uint quads = HAS_SOLID ? RAY_QUADS : RAY_QUADS_PLAIN;
+    return (list * quads + place) * push.frame.ray_capacity + index;
+}
+
+#define RAY(list, place, index) push.frame.rays.at[ray_at_place(list, place, index)]
+
+uint shadow_at_place(uint list, uint place, uint index) {
+    uint quads = HAS_SOLID ? SHADOW_QUADS : SHADOW_QUADS_PLAIN;
+    return (list * quads + place) * push.frame.shadow_capacity + index;
+}
+
+#define SHADOW(list, place, index) push.frame.shadows.at[shadow_at_place(list, place, index)]
+
+// The stream of random numbers of a pixel in this frame.
+Sampler frame_sampler(uint pixel) {
+    uvec2 at = uvec2(pixel % push.view.size.x, pixel / push.view.size.x);
+    return sampler_new(push.view.seed, push.view.frame, push.view.origin + at, push.first_sample);
+}
+
+// Where the camera looks through a pixel, in the unit square.
+vec2 frame_film(vec2 pixel) {
+    return (vec2(push.view.origin) + pixel + 0.5 + push.frame.jitter) / vec2(push.view.picture);
+}
+
+#endif
