@@ -63,8 +63,8 @@ pub mod targets;
 
 pub use backend::{
     AccelReport, Backend, Canvas, Developed, Device, DeviceError, DeviceInfo, DeviceKind, Devices, Fallback,
-    Frames, GpuChoice, GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices, prepare,
-    prepare_cpu, prepare_cpu_with,
+    FrameRenderer, Frames, GpuChoice, GpuOptions, OpenDevice, PassTime, RenderError, Replayed, devices,
+    prepare, prepare_cpu, prepare_cpu_with,
 };
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,

@@ -43,7 +43,7 @@ impl Plan {
         Plan { frames: args.frames, warm_up: args.warm_up, budget: args.budget }
     }
 
-    /// Draws the frames.
+    /// Draws frames of paths.
     pub(super) fn run(
         &self,
         backend: &dyn Backend,
@@ -51,14 +51,21 @@ impl Plan {
         size: [u32; 2],
         spp: u32,
     ) -> Result<Figures, RenderError> {
+        self.run_by(|count| backend.frames(view, size, spp, count))
+    }
+
+    /// The same for frames that `draw` draws, so many of them.
+    pub(super) fn run_by(
+        &self,
+        mut draw: impl FnMut(u32) -> Result<Frames, RenderError>,
+    ) -> Result<Figures, RenderError> {
         let began = Instant::now();
-        let mut warm = backend.frames(view, size, spp, self.warm_up)?;
+        let mut warm = draw(self.warm_up)?;
         // An idle GPU's clock is a fifth of what it rises to within half a second.
         while began.elapsed() < CLOCK_RISES.min(self.budget) {
-            warm = backend.frames(view, size, spp, self.warm_up)?;
+            warm = draw(self.warm_up)?;
         }
-        let frames = backend.frames(view, size, spp, self.count(&warm))?;
-        Ok(Figures::of(&frames))
+        Ok(Figures::of(&draw(self.count(&warm))?))
     }
 
     /// As many frames as are wanted and fit into the time, by the last one before them.

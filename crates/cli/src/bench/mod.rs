@@ -6,6 +6,7 @@ mod depth;
 mod equal_time;
 mod first_frame;
 mod hemisphere;
+mod hybrid;
 mod measure;
 mod path;
 mod place;
@@ -47,6 +48,7 @@ pub(crate) fn run(args: &mut BenchArgs, started: Instant) -> Result<Code, Failur
         Which::Hemisphere => hemisphere::table(args),
         Which::Still => still::table(args),
         Which::Share => share::table(args),
+        Which::Hybrid => hybrid::table(args),
         Which::EqualTime => equal_time::table(args),
         Which::Build => build::table(args),
         Which::FirstFrame => first_frame::table(args, started),

@@ -53,6 +53,8 @@ pub(crate) enum Table {
     Still,
     /// Share of a GPU's frame that its rays take by themselves, nothing shaded (1280x720; 4, 10)
     Share,
+    /// Hybrid frames per second at each size and depth (1280x720, 1920x1080; 4, 6, 8, 10)
+    Hybrid,
     /// The device beside the CPU, each for --time
     EqualTime,
     /// Time to build acceleration structures, and their bytes: of a grid of --triangles, or of scenes

@@ -10,6 +10,7 @@ pub(crate) mod info;
 pub(crate) mod light;
 pub(crate) mod loading;
 pub(crate) mod merge;
+pub(crate) mod mode;
 pub(crate) mod output;
 pub(crate) mod render;
 pub(crate) mod replay;

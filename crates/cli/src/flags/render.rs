@@ -3,6 +3,7 @@
 use super::camera::CameraArgs;
 use super::light::LightArgs;
 use super::loading::LoadingArgs;
+use super::mode::ModeArgs;
 use super::output::OutputArgs;
 use super::replay::ReplayArgs;
 use super::run::RunArgs;
@@ -31,6 +32,8 @@ Examples:
       lit by a photograph
   lumbre render scene.glb -o view.png --look-from -3,1.6,4 --look-at 0,1,0 --fov 35
       from elsewhere
+  lumbre render scene.glb -o frame.png --mode hybrid
+      as a game would draw it: one frame, rasterised and ray traced
   lumbre render scene.glb --edits scene.edits.json
       as it was left in the viewer; flags stand above what the file says
   lumbre render scene.glb --device gpu
@@ -52,6 +55,8 @@ pub(crate) struct RenderArgs {
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) mode: ModeArgs,
     #[command(flatten)]
     pub(crate) targets: TargetArgs,
     #[command(flatten)]

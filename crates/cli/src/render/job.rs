@@ -122,6 +122,11 @@ impl Job<'_> {
         })
     }
 
+    /// Writes a finished picture of so many samples.
+    pub(super) fn written(&self, film: &Film, spp: u32) -> Result<(), Failure> {
+        self.developed(film, spp, None, |d| self.outputs.write(d))
+    }
+
     /// Writes the outputs through `write`; `unfinished`: the camera samples after which that is done too early.
     fn developed(
         &self,

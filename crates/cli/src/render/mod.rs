@@ -1,5 +1,6 @@
 //! `lumbre render`: from flags to a picture, or to one path.
 
+mod frame;
 mod job;
 mod naming;
 mod outputs;
@@ -12,6 +13,7 @@ mod tests;
 
 use crate::device;
 use crate::exit::{Code, Failure};
+use crate::flags::mode::Mode;
 use crate::flags::render::RenderArgs;
 use crate::flags::values::Size;
 use crate::interrupt;
@@ -62,10 +64,15 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         let start = Instant::now();
         // As a viewer draws it, to the bit: meshes that are merged are rounded a little differently.
         let device = if args.loading.edits.is_some() { device.editable() } else { device };
+        let device = if args.mode.mode == Mode::Hybrid { device.alone() } else { device };
         let backend = device::prepare(device, compiled)?;
         let build_seconds = start.elapsed().as_secs_f64();
         scene::focus(&camera, &*backend, &mut job.view)?;
-        job.picture(&Prepared { backend: &*backend, load_seconds, build_seconds, scene_bytes }, &cancel)
+        let prepared = Prepared { backend: &*backend, load_seconds, build_seconds, scene_bytes };
+        match args.mode.mode {
+            Mode::Path => job.picture(&prepared, &cancel),
+            Mode::Hybrid => frame::run(&job, &prepared),
+        }
     })
 }
 

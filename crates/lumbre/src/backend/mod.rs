@@ -7,6 +7,7 @@ pub mod canvas;
 pub mod device;
 pub mod fallback;
 pub mod frames;
+pub mod hybrid;
 pub mod list;
 pub mod open;
 #[cfg_attr(not(feature = "vulkan"), path = "without_vulkan.rs")]
@@ -15,6 +16,7 @@ mod vulkan;
 pub use canvas::{Canvas, Developed};
 pub use device::{Device, DeviceError, GpuChoice};
 pub use fallback::Fallback;
+pub use hybrid::FrameRenderer;
 pub use list::{DeviceInfo, DeviceKind, Devices, devices};
 pub use lumbre_core::measure::{AccelReport, Frames, PassTime, Replayed};
 pub use open::{GpuOptions, OpenDevice};
@@ -121,6 +123,15 @@ pub trait Backend: Send + Sync {
     /// If the device fails.
     fn canvas(&self) -> Result<Box<dyn Canvas + '_>, RenderError> {
         Ok(Box::new(canvas::HostCanvas::new(self)))
+    }
+
+    /// Draws hybrid frames. Here, for devices that do not: an error.
+    ///
+    /// # Errors
+    /// If the device cannot, or fails.
+    fn frame_renderer(&self) -> Result<Box<dyn FrameRenderer + '_>, RenderError> {
+        let reason = "it draws no hybrid frames: they are rasterised, which takes a GPU".into();
+        Err(RenderError { device: self.device(), reason })
     }
 
     /// Collects the rays of a frame of one sample a pixel and traces them again by themselves, so many times, for measurements; `None`

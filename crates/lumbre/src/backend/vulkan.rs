@@ -1,12 +1,13 @@
 //! The GPUs, by `lumbre-vulkan`: its adapters, handles and errors in this crate's terms.
 
 use super::{
-    AccelReport, Backend, Canvas, Developed, Device, DeviceInfo, DeviceKind, Frames, GpuChoice, GpuOptions,
-    PassTime, RenderError, Replayed,
+    AccelReport, Backend, Canvas, Developed, Device, DeviceInfo, DeviceKind, FrameRenderer, Frames,
+    GpuChoice, GpuOptions, PassTime, RenderError, Replayed,
 };
 use crate::look::Look;
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
+use lumbre_core::hybrid::{FrameDone, FrameView};
 use lumbre_core::settings::View;
 use lumbre_scene::{CompiledScene, SceneChanges};
 use lumbre_vulkan::{
@@ -131,6 +132,11 @@ impl Backend for VulkanBackend {
         Ok(Box::new(OnGpu { backend: self, canvas }))
     }
 
+    fn frame_renderer(&self) -> Result<Box<dyn FrameRenderer + '_>, RenderError> {
+        let renderer = self.hybrid().map_err(|e| failed(self, &e))?;
+        Ok(Box::new(FramesOnGpu { backend: self, renderer }))
+    }
+
     fn replayed(&self, view: &View, size: [u32; 2], runs: u32) -> Result<Option<Replayed>, RenderError> {
         VulkanBackend::replayed(self, view, size, runs).map(Some).map_err(|e| failed(self, &e))
     }
@@ -169,6 +175,26 @@ impl Canvas for OnGpu<'_> {
 
     fn bytes(&self) -> u64 {
         self.canvas.bytes()
+    }
+}
+
+/// Hybrid frames on a GPU.
+struct FramesOnGpu<'a> {
+    backend: &'a VulkanBackend,
+    renderer: lumbre_vulkan::Hybrid<'a>,
+}
+
+impl FrameRenderer for FramesOnGpu<'_> {
+    fn next(&mut self, shot: &FrameView<'_>) -> Result<Option<FrameDone>, RenderError> {
+        self.renderer.next(shot).map_err(|e| failed(self.backend, &e))
+    }
+
+    fn finish(&mut self) -> Result<Option<FrameDone>, RenderError> {
+        self.renderer.finish().map_err(|e| failed(self.backend, &e))
+    }
+
+    fn film(&mut self) -> Result<&Film, RenderError> {
+        self.renderer.film().map_err(|e| failed(self.backend, &e))
     }
 }
 

@@ -27,7 +27,6 @@ pub(super) struct Memory {
     glass: Buffer,
     sums: Buffer,
     heads: Buffer,
-    heads_on_host: Buffer,
     view: Buffer,
     frame: Buffer,
 }
@@ -67,7 +66,6 @@ impl Memory {
             glass: data("shadow rays through glass", 2 * 4 * shadows)?,
             sums: data("light of pixels", 3 * 8 * pixels)?,
             heads: data("lengths of lists", heads)?,
-            heads_on_host: Buffer::new(gpu, "lengths on the host", heads, Purpose::Readback)?,
             view: data("view", size_of::<ViewTable>() as u64)?,
             frame: data("frame", size_of::<FrameTable>() as u64)?,
         })
@@ -186,14 +184,19 @@ impl Memory {
         head(offset_of!(FrameHeads, glass), parity)
     }
 
-    /// Brings the counts to the host.
-    pub(super) fn copy_heads(&self, commands: &Commands<'_>) {
-        commands.copy((&self.heads, 0), (&self.heads_on_host, 0), size_of::<FrameHeads>() as u64);
+    /// Where the host reads the counts of a frame.
+    pub(super) fn readback(gpu: &Gpu) -> Result<Buffer, VulkanError> {
+        Buffer::new(gpu, "lengths on the host", size_of::<FrameHeads>() as u64, Purpose::Readback)
     }
 
-    /// What was done for the frame that brought its counts here last.
-    pub(super) fn report(&self) -> FrameReport {
-        let heads: FrameHeads = self.heads_on_host.read_as()[0];
+    /// Brings the counts there.
+    pub(super) fn copy_heads(&self, commands: &Commands<'_>, to: &Buffer) {
+        commands.copy((&self.heads, 0), (to, 0), size_of::<FrameHeads>() as u64);
+    }
+
+    /// What the counts say.
+    pub(super) fn report(heads: &Buffer) -> FrameReport {
+        let heads: FrameHeads = heads.read_as()[0];
         FrameReport {
             rays: heads.traced_rays.into(),
             shadow_rays: heads.traced_shadows.into(),

@@ -21,16 +21,15 @@ pub(crate) use passes::HybridPasses;
 pub(crate) use scene::HybridScene;
 
 use crate::path::film::FilmOnGpu;
-use crate::{Timer, VulkanBackend, VulkanError};
+use crate::{Buffer, Pending, Timer, VulkanBackend, VulkanError};
 use bytemuck::bytes_of;
-use lumbre_core::film::{Crop, Film};
-use lumbre_core::hybrid::{FrameReport, HybridSettings};
-use lumbre_core::measure::PassTime;
-use lumbre_core::settings::View;
+use lumbre_core::film::Film;
+use lumbre_core::hybrid::{FrameDone, FrameView};
 use lumbre_shaders::camera::CameraRecord;
 use lumbre_shaders::hybrid::FramePush;
 use lumbre_shaders::view::Push;
 use memory::Memory;
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Draws frames of a scene, one after another.
@@ -40,9 +39,18 @@ pub struct Hybrid<'a> {
     film: FilmOnGpu,
     /// The camera of the frame before.
     previous: Option<CameraRecord>,
-    times: Vec<PassTime>,
-    /// The film as it was last read, unless there has been a frame since.
+    /// The last frame as it was read, unless there has been another since.
     host: Option<Film>,
+    /// Frames under way, the oldest first: two at most.
+    under_way: VecDeque<Flight>,
+}
+
+/// A frame under way, and where its figures will be.
+struct Flight {
+    pending: Pending,
+    timer: Timer,
+    names: Vec<&'static str>,
+    heads: Buffer,
 }
 
 impl VulkanBackend {
@@ -61,37 +69,66 @@ impl VulkanBackend {
             memory: None,
             film: FilmOnGpu::new(self.gpu(), 1)?,
             previous: None,
-            times: Vec::new(),
             host: None,
+            under_way: VecDeque::new(),
         })
     }
 }
 
 impl Hybrid<'_> {
-    /// Draws a frame of so many pixels. Of the view's settings those count that say what surfaces and lights look like. Lenses are
-    /// pinholes.
+    /// Draws a frame.
     ///
     /// # Errors
     /// If memory is out or the device is lost.
-    pub fn frame(
-        &mut self,
-        view: &View,
-        size: [u32; 2],
-        settings: &HybridSettings,
-    ) -> Result<FrameReport, VulkanError> {
-        let backend = self.backend;
-        let gpu = backend.gpu();
-        let (passes, media) = backend.hybrid_parts(view)?;
-        self.host = None;
-        let sharp = backend.hybrid_scene().sharp_light_count();
-        if self.memory.as_ref().is_none_or(|m| !m.suits(size, passes.solids(), sharp)) {
+    pub fn frame(&mut self, shot: &FrameView<'_>) -> Result<FrameDone, VulkanError> {
+        self.submit(shot)?;
+        let mut last = FrameDone::default();
+        while let Some(done) = self.finish()? {
+            last = done;
+        }
+        Ok(last)
+    }
+
+    /// Begins a frame; returns one that was under way before, once there are two.
+    ///
+    /// # Errors
+    /// If memory is out or the device is lost.
+    pub fn next(&mut self, shot: &FrameView<'_>) -> Result<Option<FrameDone>, VulkanError> {
+        self.submit(shot)?;
+        if self.under_way.len() < 2 { Ok(None) } else { self.finish() }
+    }
+
+    /// Waits for the oldest frame under way; `None`: there is none.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn finish(&mut self) -> Result<Option<FrameDone>, VulkanError> {
+        self.under_way.pop_front().map(Flight::done).transpose()
+    }
+
+    /// Memory for frames of this size.
+    fn make_room(&mut self, size: [u32; 2], solids: bool) -> Result<(), VulkanError> {
+        let gpu = self.backend.gpu();
+        let sharp = self.backend.hybrid_scene().sharp_light_count();
+        if self.memory.as_ref().is_none_or(|m| !m.suits(size, solids, sharp)) {
+            // The old one goes first: there may not be room for both.
             self.memory = None;
-            self.memory = Some(Memory::new(gpu, size, passes.solids(), sharp)?);
+            self.memory = Some(Memory::new(gpu, size, solids, sharp)?);
         }
         let pixels = u64::from(size[0]) * u64::from(size[1]);
         if self.film.pixels() != pixels {
             self.film = FilmOnGpu::new(gpu, pixels)?;
         }
+        Ok(())
+    }
+
+    fn submit(&mut self, shot: &FrameView<'_>) -> Result<(), VulkanError> {
+        let &FrameView { view, size, settings } = shot;
+        let backend = self.backend;
+        let gpu = backend.gpu();
+        let (passes, media) = backend.hybrid_parts(view)?;
+        self.host = None;
+        self.make_room(size, passes.solids())?;
         let memory = self.memory.as_ref().expect("made above");
         let camera = CameraRecord::from(&view.camera);
         let previous = self.previous.replace(camera).unwrap_or(camera);
@@ -111,25 +148,17 @@ impl Hybrid<'_> {
         let draws = &backend.scene_on_gpu().draws;
         let visible = passes.visible(gpu, (memory.target.pass(), draws), backend.pipeline_cache())?;
         let timer = Timer::new(gpu, passes.stamps(settings.depth))?;
+        let heads = Memory::readback(gpu)?;
         let mut names = Vec::new();
         let pending = gpu.submit("a hybrid frame", |commands| {
             memory.begin(commands, [bytes_of(&tables.0), bytes_of(&tables.1)]);
             self.film.begin(commands);
             names = passes.record(commands, (memory, draws, &visible), &timer, (&push, settings.depth));
-            memory.copy_heads(commands);
+            memory.copy_heads(commands, &heads);
             Ok(())
         })?;
-        pending.wait()?;
-        let ms = timer.milliseconds()?;
-        for (pair, name) in ms.windows(2).zip(names) {
-            PassTime::add(&mut self.times, name, pair[1] - pair[0]);
-        }
-        Ok(memory.report())
-    }
-
-    /// What the passes took in all frames so far.
-    pub fn pass_times(&self) -> &[PassTime] {
-        &self.times
+        self.under_way.push_back(Flight { pending, timer, names, heads });
+        Ok(())
     }
 
     /// The last frame, as a film of one sample.
@@ -144,12 +173,21 @@ impl Hybrid<'_> {
         let film = match self.host.take() {
             Some(film) => film,
             None => {
-                let mut film = Film::window([width, height], Crop { origin: [0, 0], size: [width, height] });
+                let mut film = Film::new(width, height);
                 self.film.read(self.backend.gpu(), &mut film)?;
                 film
             }
         };
         Ok(self.host.insert(film))
+    }
+}
+
+impl Flight {
+    fn done(self) -> Result<FrameDone, VulkanError> {
+        self.pending.wait()?;
+        let ms = self.timer.milliseconds()?;
+        let passes = ms.windows(2).zip(self.names).map(|(pair, name)| (name, pair[1] - pair[0])).collect();
+        Ok(FrameDone { report: Memory::report(&self.heads), passes })
     }
 }
 

@@ -71,18 +71,36 @@ impl HybridScene {
     }
 }
 
-/// Ambient radiance: half of what the sky has in the mean, and what lamps would make of the inside of a box of the scene's size, where light is the
-/// same everywhere (the integrating sphere: Φ / (π A (1 - ρ))).
+/// Ambient radiance: half of what the sky has in the mean; what surfaces send back of light from far away, a quarter of which they see; and what
+/// lamps would make of the inside of a box of the scene's size, where light is the same everywhere (the integrating sphere: Φ / (π A (1 - ρ))).
 fn ambient(scene: &CompiledScene) -> Spectrum {
     let mut sum = Spectrum::BLACK;
     if scene.environment.light != NONE {
         sum += sky(scene) * TYPICAL_SKY;
     }
+    let mut parallel = Spectrum::BLACK;
+    let mut flux = Spectrum::BLACK;
+    for light in scene.lights.iter() {
+        let punctual = || &scene.punctual_lights[light.index as usize];
+        match light.kind {
+            kind::SUN => {
+                parallel += Spectrum::from(scene.sun.radiance) * (2.0 * PI * scene.sun.one_minus_cos);
+            }
+            kind::DIRECTIONAL => parallel += Spectrum::from(punctual().intensity),
+            kind::POINT => flux += Spectrum::from(punctual().intensity) * (4.0 * PI),
+            kind::SPOT => {
+                let cone = 1.0 - 0.5 * (punctual().cos_inner + punctual().cos_outer);
+                flux += Spectrum::from(punctual().intensity) * (2.0 * PI * cone);
+            }
+            _ => {}
+        }
+    }
+    sum += parallel * (0.25 * TYPICAL_ALBEDO / PI);
     let [min, max] = scene.bounds.map(Vec3::from_array);
     let e = max - min;
     let area = 2.0 * (e.x * e.y + e.y * e.z + e.z * e.x);
     if area.is_finite() && area > 0.0 {
-        let lamps = scene.triangle_lights.iter().fold(Spectrum::BLACK, |sum, l| {
+        let lamps = scene.triangle_lights.iter().fold(flux, |sum, l| {
             let [e1, e2] = [l.e1, l.e2].map(Vec3::from_array);
             sum + Spectrum::from(l.radiance) * (PI * 0.5 * e1.cross(e2).length())
         });

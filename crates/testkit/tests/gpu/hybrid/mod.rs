@@ -5,7 +5,7 @@ mod whitted;
 
 use lumbre_core::Film;
 use lumbre_core::filter::FilterKind;
-use lumbre_core::hybrid::HybridSettings;
+use lumbre_core::hybrid::{FrameView, HybridSettings};
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_vulkan::VulkanBackend;
 
@@ -20,8 +20,8 @@ fn centred(view: &View) -> View {
 /// A frame as a film of one sample.
 fn frame(backend: &VulkanBackend, view: &View, size: [u32; 2], settings: &HybridSettings) -> Film {
     let mut hybrid = backend.hybrid().expect("the device draws hybrid frames");
-    let report = hybrid.frame(view, size, settings).expect("the GPU draws");
-    assert_eq!(report.dropped, 0, "{report:?}");
+    let done = hybrid.frame(&FrameView { view, size, settings }).expect("the GPU draws");
+    assert_eq!(done.report.dropped, 0, "{done:?}");
     let film = hybrid.film().expect("the device is there").clone();
     assert_eq!(film.non_finite_count(), 0, "{:?}", film.non_finite());
     film
