@@ -3,6 +3,18 @@
 use crate::Spectrum;
 use crate::settings::View;
 
+/// How edges are made smooth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum AntiAliasing {
+    /// Not at all: one sample at the centre of each pixel.
+    None,
+    /// In each frame by itself, along the edges that it finds (FXAA).
+    Fxaa,
+    /// Over frames, which look through other places of their pixels.
+    #[default]
+    Temporal,
+}
+
 /// Settings of hybrid frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HybridSettings {
@@ -10,16 +22,71 @@ pub struct HybridSettings {
     pub depth: u32,
     /// Radiance that stands for all light that no ray brings; `None`: found from the lights of the scene.
     pub ambient: Option<Spectrum>,
+    /// Lamps that have a size and the disc of the sun light what the camera sees, with penumbras. Otherwise lamps only glow, and the sun is a point
+    /// of the sky.
+    pub soft_shadows: bool,
+    /// Ambient light does not reach what things stand close to.
+    pub ambient_occlusion: bool,
+    /// Metres that count as close; `None`: found from the size of the scene.
+    pub occlusion_reach: Option<f32>,
+    /// What the camera sees is lit by the sky and by other surfaces, in the place of ambient light. These have ambient light.
+    pub global_illumination: bool,
+    /// What each frame has one sample of is filtered over space and time; otherwise it is shown as it is.
+    pub filter: bool,
+    /// Edges.
+    pub anti_aliasing: AntiAliasing,
+    /// Rows and columns that are drawn, over those that are shown: [`HybridSettings::LEAST_SCALE`] to 1. Below 1 only with
+    /// [`AntiAliasing::Temporal`], which makes up for it.
+    pub render_scale: f32,
 }
 
 impl HybridSettings {
     /// Largest `depth`.
     pub const MOST_DEPTH: u32 = 64;
+
+    /// What the thesis's program draws: sharp shadows, mirrors and glass, ambient light.
+    pub const THESIS: Self = HybridSettings {
+        depth: 10,
+        ambient: None,
+        soft_shadows: false,
+        ambient_occlusion: false,
+        occlusion_reach: None,
+        global_illumination: false,
+        filter: false,
+        anti_aliasing: AntiAliasing::Fxaa,
+        render_scale: 1.0,
+    };
+
+    /// Smallest `render_scale`.
+    pub const LEAST_SCALE: f32 = 0.5;
+
+    /// Everything.
+    pub const ALL: Self = HybridSettings {
+        soft_shadows: true,
+        global_illumination: true,
+        filter: true,
+        anti_aliasing: AntiAliasing::Temporal,
+        ..HybridSettings::THESIS
+    };
+
+    /// Columns and rows of a frame for a picture of this size.
+    pub fn drawn_size(&self, shown: [u32; 2]) -> [u32; 2] {
+        let scale = match self.anti_aliasing {
+            AntiAliasing::Temporal => self.render_scale.clamp(Self::LEAST_SCALE, 1.0),
+            _ => 1.0,
+        };
+        shown.map(|n| ((n as f32 * scale).round() as u32).clamp(n.min(1), n))
+    }
+
+    /// Whether frames have samples of light that are filtered.
+    pub fn has_soft_light(&self) -> bool {
+        self.soft_shadows || self.global_illumination || self.ambient_occlusion
+    }
 }
 
 impl Default for HybridSettings {
     fn default() -> Self {
-        HybridSettings { depth: 10, ambient: None }
+        HybridSettings::ALL
     }
 }
 

@@ -26,17 +26,31 @@ pub mod passes {
     pub const SHADOW: &[u8] = include_bytes!("../spirv/hybrid/shadow.rgen.spv");
     /// Shadow rays through what lets light through.
     pub const GLASS: &[u8] = include_bytes!("../spirv/hybrid/glass.rgen.spv");
-    /// The frame, to the film.
+    /// Soft light over time.
+    pub const FILTER_TEMPORAL: &[u8] = include_bytes!("../spirv/hybrid/filter/temporal.comp.spv");
+    /// Soft light over space.
+    pub const FILTER_ATROUS: &[u8] = include_bytes!("../spirv/hybrid/filter/atrous.comp.spv");
+    /// Sharp and soft light.
+    pub const COMPOSE: &[u8] = include_bytes!("../spirv/hybrid/compose.comp.spv");
+    /// Edges, over time.
+    pub const AA_TEMPORAL: &[u8] = include_bytes!("../spirv/hybrid/anti_aliasing/temporal.comp.spv");
+    /// Edges of one frame.
+    pub const AA_FXAA: &[u8] = include_bytes!("../spirv/hybrid/anti_aliasing/fxaa.comp.spv");
+    /// The picture, to the film.
     pub const GATHER: &[u8] = include_bytes!("../spirv/hybrid/gather.comp.spv");
 }
 
 /// How many times four words the planes of a pixel take.
-pub const PLANE_QUADS: u64 = 5;
+pub const PLANE_QUADS: u64 = 6;
+/// How many times four words of them are kept for the next frame.
+pub const PREVIOUS_QUADS: u64 = 2;
 /// How many times four words a ray takes: without solids, and with them.
 pub const RAY_QUADS: [u64; 2] = [4, 6];
 /// How many times four words a shadow ray takes: without solids, and with them.
 pub const SHADOW_QUADS: [u64; 2] = [3, 5];
 
+/// Kinds of light that a frame sums apart: sharp and soft.
+pub const CHANNELS: u64 = 2;
 /// Shadow rays to lights with sharp shadows that one surface asks for.
 pub const MOST_SHARP: u32 = 4;
 
@@ -76,10 +90,22 @@ pub struct FrameTable {
     pub glass: u64,
     /// Address of the [`FrameHeads`].
     pub heads: u64,
-    /// Address of the light of each pixel, three sums of quanta.
+    /// Address of the light of each pixel, three sums of quanta for each of [`CHANNELS`].
     pub sums: u64,
     /// Address of the numbers of lights with sharp shadows.
     pub sharp_lights: u64,
+    /// Address of what is kept of the planes of the frame before: [`PREVIOUS_QUADS`] of each pixel.
+    pub previous_planes: u64,
+    /// Addresses of soft light and its variance, four floats a pixel: two that take turns.
+    pub soft: [u64; 2],
+    /// Address of what the next frame goes on from.
+    pub soft_history: u64,
+    /// Addresses of its moments over frames: two that take turns.
+    pub moments: [u64; 2],
+    /// Address of the frame before anti-aliasing.
+    pub drawn: u64,
+    /// Addresses of the picture that is shown: two that take turns.
+    pub shown: [u64; 2],
     /// Address of the transforms as they were in the frame before.
     pub previous_transforms: u64,
     /// How many lights have sharp shadows.
@@ -92,14 +118,26 @@ pub struct FrameTable {
     pub depth: u32,
     /// Where in their pixels the camera looks, from the centre, pixels.
     pub jitter: [f32; 2],
+    /// The same in the frame before.
+    pub previous_jitter: [f32; 2],
     /// For cameras whose rays are parallel: metres that are drawn.
     pub far: f32,
     /// Nearest distance that is drawn, metres.
     pub near: f32,
     /// Radiance that stands for what no ray brings.
     pub ambient: [f32; 3],
+    /// Metres beyond which nothing occludes ambient light.
+    pub occlusion_reach: f32,
     /// The camera of the frame before.
     pub previous: CameraRecord,
+    /// Columns and rows of the picture that is shown.
+    pub shown_size: [u32; 2],
+    /// Which of two buffers that take turns between frames is this frame's.
+    pub turn: u32,
+    /// 1: there was a frame before.
+    pub has_history: u32,
+    /// 1: and nothing has changed since.
+    pub is_still: u32,
 }
 
 /// Push constants of the passes.

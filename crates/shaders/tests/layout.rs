@@ -150,35 +150,16 @@ fn collected_rays_lie_alike() {
 
 /// What the passes of a hybrid frame are told.
 #[test]
+#[rustfmt::skip]
 fn frames_lie_alike() {
     let structs = shader(&rspirv::dr::load_bytes(lumbre_shaders::hybrid::passes::PLANES).expect("SPIR-V"));
     let mut push = rust().into_iter().find(|(name, _)| *name == "Push").unwrap().1;
     push.insert("frame".to_owned(), offset_of!(FramePush, frame) as u32);
     let mut rust = vec![
         ("Push", push),
-        fields!(
-            "FrameTable",
-            FrameTable {
-                ids,
-                planes,
-                rays,
-                shadows,
-                glass,
-                heads,
-                sums,
-                sharp_lights,
-                previous_transforms,
-                sharp_light_count,
-                ray_capacity,
-                shadow_capacity,
-                depth,
-                jitter,
-                far,
-                near,
-                ambient,
-                previous
-            }
-        ),
+        fields!("FrameTable", FrameTable { ids, planes, rays, shadows, glass, heads, sums, sharp_lights, previous_planes, soft, soft_history,
+            moments, drawn, shown, previous_transforms, sharp_light_count, ray_capacity, shadow_capacity, depth, jitter, previous_jitter, far,
+            near, ambient, occlusion_reach, previous, shown_size, turn, has_history, is_still }),
         fields!(
             "FrameHeads",
             FrameHeads { rays, shadows, glass, groups, traced_rays, traced_shadows, dropped }
@@ -223,8 +204,11 @@ fn shared_constants_are_the_same() {
     let lists = [queue("QUEUE_PATHS"), queue("QUEUE_SHADOW"), queue("QUEUE_GLASS"), queue("QUEUE_CATCHERS")];
     assert_eq!(lists, [PATHS, SHADOW, GLASS, CATCHERS].map(u64::from));
     let frame = |name| glsl("hybrid/frame.glsl", name);
-    use lumbre_shaders::hybrid::{MOST_SHARP, PLANE_QUADS, RAY_QUADS, SHADOW_QUADS};
-    assert_eq!(frame("PLANE_QUADS"), PLANE_QUADS);
+    use lumbre_shaders::hybrid::{
+        CHANNELS, MOST_SHARP, PLANE_QUADS, PREVIOUS_QUADS, RAY_QUADS, SHADOW_QUADS,
+    };
+    assert_eq!(frame("CHANNELS"), CHANNELS);
+    assert_eq!([frame("PLANE_QUADS"), frame("PREVIOUS_QUADS")], [PLANE_QUADS, PREVIOUS_QUADS]);
     assert_eq!([frame("RAY_QUADS_PLAIN"), frame("RAY_QUADS")], RAY_QUADS);
     assert_eq!([frame("SHADOW_QUADS_PLAIN"), frame("SHADOW_QUADS")], SHADOW_QUADS);
     assert_eq!(glsl("hybrid/sharp_lights.glsl", "MOST_SHARP"), u64::from(MOST_SHARP));

@@ -26,7 +26,8 @@ pub(super) fn table(args: &BenchArgs) -> Result<Table, Failure> {
     let table = sweep.walk(args, &COLUMNS, |spot| {
         let view = spot.view(spot.settings())?;
         let depth = view.settings.max_depth.unwrap_or(HybridSettings::MOST_DEPTH);
-        let settings = HybridSettings { depth: depth.min(HybridSettings::MOST_DEPTH), ..Default::default() };
+        let settings =
+            HybridSettings { depth: depth.min(HybridSettings::MOST_DEPTH), ..HybridSettings::THESIS };
         let mut renderer = spot.backend.frame_renderer()?;
         let shot = FrameView { view: &view, size: spot.size, settings: &settings };
         let figures = plan.run_by(|count| frames(&mut *renderer, count, |_| shot))?;

@@ -3,7 +3,7 @@
 use super::camera::CameraArgs;
 use super::light::LightArgs;
 use super::loading::LoadingArgs;
-use super::mode::ModeArgs;
+use super::mode::{HybridArgs, Mode};
 use super::output::OutputArgs;
 use super::replay::ReplayArgs;
 use super::run::RunArgs;
@@ -33,7 +33,7 @@ Examples:
   lumbre render scene.glb -o view.png --look-from -3,1.6,4 --look-at 0,1,0 --fov 35
       from elsewhere
   lumbre render scene.glb -o frame.png --mode hybrid
-      as a game would draw it: one frame, rasterised and ray traced
+      as a game would draw it: rasterised, with rays for shadows, reflections and light between surfaces
   lumbre render scene.glb --edits scene.edits.json
       as it was left in the viewer; flags stand above what the file says
   lumbre render scene.glb --device gpu
@@ -55,8 +55,15 @@ pub(crate) struct RenderArgs {
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    /// How the picture is drawn.
+    #[arg(long, value_name = "MODE", default_value = "path")]
+    pub(crate) mode: Mode,
+    /// Frames of a hybrid picture, of which the last is written: light and edges are gathered over them. [default: 1, or 32 where they are]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) frames: Option<u32>,
     #[command(flatten)]
-    pub(crate) mode: ModeArgs,
+    pub(crate) hybrid: HybridArgs,
     #[command(flatten)]
     pub(crate) targets: TargetArgs,
     #[command(flatten)]

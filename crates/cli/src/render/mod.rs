@@ -64,14 +64,14 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         let start = Instant::now();
         // As a viewer draws it, to the bit: meshes that are merged are rounded a little differently.
         let device = if args.loading.edits.is_some() { device.editable() } else { device };
-        let device = if args.mode.mode == Mode::Hybrid { device.alone() } else { device };
+        let device = if args.mode == Mode::Hybrid { device.alone() } else { device };
         let backend = device::prepare(device, compiled)?;
         let build_seconds = start.elapsed().as_secs_f64();
         scene::focus(&camera, &*backend, &mut job.view)?;
         let prepared = Prepared { backend: &*backend, load_seconds, build_seconds, scene_bytes };
-        match args.mode.mode {
+        match args.mode {
             Mode::Path => job.picture(&prepared, &cancel),
-            Mode::Hybrid => frame::run(&job, &prepared),
+            Mode::Hybrid => frame::run(&job, &prepared, &cancel),
         }
     })
 }

@@ -48,6 +48,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FrameNumbers
     uint at[];
 };
 
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FrameFloats {
+    vec4 at[];
+};
+
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FrameTable {
     // What the rasteriser saw of each pixel: geometry, primitive; NONE: nothing.
     FrameIds ids;
@@ -60,10 +64,20 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fra
     // Two lists of `shadow_capacity` numbers of shadow rays.
     FrameNumbers glass;
     FrameHeads heads;
-    // Light of each pixel, three sums of quanta.
+    // Light of each pixel, three sums of quanta for each channel.
     FrameSums sums;
     // Lights with sharp shadows.
     FrameNumbers sharp_lights;
+    // Of each pixel of the frame before: PREVIOUS_QUADS times four words.
+    FrameQuads previous_planes;
+    // Soft light of each pixel, without albedo, and its variance: two that take turns, and what the next frame goes on from.
+    FrameFloats soft[2];
+    FrameFloats soft_history;
+    // Its moments over frames: those of this frame and of the one before.
+    FrameFloats moments[2];
+    // The frame before anti-aliasing; then the picture, and that of the frame before.
+    FrameFloats drawn;
+    FrameFloats shown[2];
     // Transforms as they were in the frame before.
     uint64_t previous_transforms;
     uint sharp_light_count;
@@ -71,16 +85,26 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fra
     uint shadow_capacity;
     // Most rays one after another, the camera's not counted.
     uint depth;
-    // Where in their pixels the camera looks, from the centre, pixels.
+    // Where in their pixels the camera looks, from the centre, pixels; and where it did in the frame before.
     vec2 jitter;
+    vec2 previous_jitter;
     // For cameras whose rays are parallel: metres that are drawn.
     float far;
     // Nearest distance that is drawn, metres.
     float near;
     // Radiance that stands for what no ray brings.
     vec3 ambient;
+    // Metres beyond which nothing occludes ambient light.
+    float occlusion_reach;
     // The camera of the frame before.
     CameraRecord previous;
+    // Size of the picture that is shown.
+    uvec2 shown_size;
+    // Which of two buffers that take turns between frames is this frame's.
+    uint turn;
+    // There was a frame before; and nothing has changed since.
+    uint has_history;
+    uint is_still;
 };
 
 #define HYBRID
@@ -94,18 +118,52 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fra
 const uint PLANE_NORMAL = 0u; // shading normal, distance along the camera's ray
 const uint PLANE_ALBEDO = 1u; // albedo; roughness and specularity as halves
 const uint PLANE_POSITION = 2u; // position; instance, NONE for the sky
-const uint PLANE_MOTION = 3u; // from here to where it was, pixels; shares reflected and let through as halves; index of refraction
+const uint PLANE_MOTION = 3u; // from here to where it was, pixels; how far from the camera it was then
 const uint PLANE_EMISSION = 4u; // emitted radiance; material
-const uint PLANE_QUADS = 5u;
+const uint PLANE_SHARES = 5u; // shares mirrored and let through; index of refraction
+const uint PLANE_QUADS = 6u;
+
+// Planes that are kept for the next frame: PLANE_NORMAL, PLANE_POSITION.
+const uint PREVIOUS_NORMAL = 0u;
+const uint PREVIOUS_POSITION = 1u;
+const uint PREVIOUS_QUADS = 2u;
+
+// Light that is brought by the rays that it takes (sharp), and light of which each frame has a sample (soft), to be filtered.
+const uint CHANNEL_SHARP = 0u;
+const uint CHANNEL_SOFT = 1u;
+const uint CHANNELS = 2u;
+
+// What frames have beside sharp shadows, mirrors and glass.
+layout(constant_id = 70) const bool SOFT_SHADOWS = false;
+layout(constant_id = 71) const bool GLOBAL_ILLUMINATION = false;
+layout(constant_id = 72) const bool AMBIENT_OCCLUSION = false;
 
 // Four words of a ray.
 const uint RAY_ORIGIN = 0u; // origin; once traced the distance
-const uint RAY_DIRECTION = 1u; // direction; depth
+const uint RAY_DIRECTION = 1u; // direction; RayKind
 const uint RAY_BETA = 2u; // throughput; pixel
-const uint RAY_HIT = 3u; // geometry, primitive, barycentrics
+const uint RAY_HIT = 3u; // once traced geometry, primitive, barycentrics
 const uint RAY_MEDIA = 4u; // two, where the scene has solids
 const uint RAY_QUADS_PLAIN = 4u;
 const uint RAY_QUADS = 6u;
+
+// What a ray is for.
+struct RayKind {
+    // Scattering events so far.
+    uint depth;
+    // It gathers light for the soft channel; others show what lies along a delta lobe.
+    bool gathers;
+    // Density of its direction, sr⁻¹; 0 where light sampling could not have found what it meets.
+    float pdf;
+};
+
+uint ray_kind_pack(RayKind kind) {
+    return kind.depth | (kind.gathers ? 0x100u : 0u) | (packHalf2x16(vec2(0.0, min(kind.pdf, 65504.0))) & 0xffff0000u);
+}
+
+RayKind ray_kind_unpack(uint bits) {
+    return RayKind(bits & 0xffu, (bits & 0x100u) != 0u, unpackHalf2x16(bits).y);
+}
 
 // Four words of a shadow ray.
 const uint SHADOW_ORIGIN = 0u; // origin; length
@@ -117,6 +175,9 @@ const uint SHADOW_QUADS = 5u;
 
 // Solids let this light through straight.
 const uint SHADOW_PASSES = 0x80000000u;
+// It is light of the soft channel.
+const uint SHADOW_SOFT = 0x40000000u;
+const uint SHADOW_DEPTH = 0x3fffffffu;
 
 uint frame_pixels() {
     return push.view.size.x * push.view.size.y;

@@ -1,4 +1,4 @@
-// Light and planes of each pixel to a film of one sample.
+// The picture and the planes of each pixel to a film of one sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -9,16 +9,19 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 void main() {
     uvec2 at = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(at, push.view.size))) {
+    if (any(greaterThanEqual(at, push.frame.shown_size))) {
         return;
     }
-    uint pixel = at.y * push.view.size.x + at.x;
+    uint place = at.y * push.frame.shown_size.x + at.x;
+    // The frame may have fewer pixels.
+    uvec2 seen = min(at * push.view.size / push.frame.shown_size, push.view.size - 1u);
+    uint pixel = seen.y * push.view.size.x + seen.x;
     vec4 normal = uintBitsToFloat(PLANE(PLANE_NORMAL, pixel));
     uvec4 position = PLANE(PLANE_POSITION, pixel);
     FilmSample s;
-    for (uint i = 0u; i < 3u; ++i) {
-        s.radiance[i] = float(int64_t(push.frame.sums.at[3u * pixel + i])) * (1.0 / 16777216.0);
-    }
+    // Passes after `drawn`: with none it is what is shown.
+    bool is_shown = push.sample_count > 0u;
+    s.radiance = is_shown ? push.frame.shown[push.frame.turn].at[place].xyz : push.frame.drawn.at[place].xyz;
     s.has_hit = position.w != NONE;
     s.alpha = s.has_hit ? 1.0 : 0.0;
     s.normal = normal.xyz;
@@ -41,5 +44,5 @@ void main() {
     NonFiniteList non_finite = push.view.non_finite;
     film_add(sums, non_finite, push.view.origin + at, push.first_sample, s);
     FilmPixels film = push.view.film;
-    film.at[pixel] = sums;
+    film.at[place] = sums;
 }

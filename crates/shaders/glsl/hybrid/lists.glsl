@@ -22,7 +22,7 @@
     }
 
 // Adds a ray to a list.
-void ray_add(uint list, Ray ray, uint depth, Spectrum beta, uint pixel, MediumStack media) {
+void ray_add(uint list, Ray ray, RayKind kind, Spectrum beta, uint pixel, MediumStack media) {
     FrameHeads heads = push.frame.heads;
     uint at;
     RESERVE(rays[list], 1u, at)
@@ -31,7 +31,7 @@ void ray_add(uint list, Ray ray, uint depth, Spectrum beta, uint pixel, MediumSt
     }
     FrameQuads rays = push.frame.rays;
     rays.at[ray_at_place(list, RAY_ORIGIN, at)] = uvec4(floatBitsToUint(ray.origin), 0u);
-    rays.at[ray_at_place(list, RAY_DIRECTION, at)] = uvec4(floatBitsToUint(ray.dir), depth);
+    rays.at[ray_at_place(list, RAY_DIRECTION, at)] = uvec4(floatBitsToUint(ray.dir), ray_kind_pack(kind));
     rays.at[ray_at_place(list, RAY_BETA, at)] = uvec4(floatBitsToUint(beta), pixel);
     if (HAS_SOLID) {
         rays.at[ray_at_place(list, RAY_MEDIA, at)] = media.material;
@@ -39,8 +39,16 @@ void ray_add(uint list, Ray ray, uint depth, Spectrum beta, uint pixel, MediumSt
     }
 }
 
+// A shadow ray: who asks for it, and for which channel.
+struct Asked {
+    uint pixel;
+    // Scattering events before the surface that asks.
+    uint depth;
+    bool soft;
+};
+
 // Adds a shadow ray to a list.
-void shadow_add(uint list, Ray ray, uint depth, bool solids_pass, Spectrum light, uint pixel, MediumStack media) {
+void shadow_add(uint list, Ray ray, Asked asked, bool solids_pass, Spectrum light, MediumStack media) {
     FrameHeads heads = push.frame.heads;
     uint at;
     RESERVE(shadows[list], 1u, at)
@@ -48,10 +56,10 @@ void shadow_add(uint list, Ray ray, uint depth, bool solids_pass, Spectrum light
         return;
     }
     FrameQuads shadows = push.frame.shadows;
-    uint bits = depth | (solids_pass ? SHADOW_PASSES : 0u);
+    uint bits = asked.depth | (solids_pass ? SHADOW_PASSES : 0u) | (asked.soft ? SHADOW_SOFT : 0u);
     shadows.at[shadow_at_place(list, SHADOW_ORIGIN, at)] = floatBitsToUint(vec4(ray.origin, ray.t_max));
     shadows.at[shadow_at_place(list, SHADOW_DIRECTION, at)] = uvec4(floatBitsToUint(ray.dir), bits);
-    shadows.at[shadow_at_place(list, SHADOW_LIGHT, at)] = uvec4(floatBitsToUint(light), pixel);
+    shadows.at[shadow_at_place(list, SHADOW_LIGHT, at)] = uvec4(floatBitsToUint(light), asked.pixel);
     if (HAS_SOLID) {
         shadows.at[shadow_at_place(list, SHADOW_MEDIA, at)] = media.material;
         shadows.at[shadow_at_place(list, SHADOW_MEDIA + 1u, at)] = floatBitsToUint(media.ior);

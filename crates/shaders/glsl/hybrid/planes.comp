@@ -41,13 +41,17 @@ vec2 motion(vec2 pixel, vec4 before) {
     return place * vec2(push.view.picture) - (vec2(push.view.origin) + pixel + 0.5 + push.frame.jitter);
 }
 
-vec2 motion_of_surface(vec2 pixel, Interaction it, Hit hit) {
+// The same of a point of a surface, and its distance from the camera then.
+vec3 motion_of_surface(vec2 pixel, Interaction it, Hit hit) {
     MeshTable mesh = push.scene.meshes.at[hit.mesh];
     TransformKey key = Transforms(push.frame.previous_transforms).at[push.scene.instances.at[hit.instance].first_transform];
     uvec3 v = mesh.triangles.at[hit.triangle];
     vec3 w = hit_weights(hit);
     vec3 p = mesh.positions.at[v.x] * w.x + mesh.positions.at[v.y] * w.y + mesh.positions.at[v.z] * w.z;
-    return motion(pixel, project(push.frame.previous, transform_point(key, p), vec2(0.0)));
+    vec3 before = transform_point(key, p);
+    CameraRecord camera = push.frame.previous;
+    float away = camera.projection == PROJECTION_PERSPECTIVE ? length(before - camera.origin) : dot(before - camera.origin, camera.forward);
+    return vec3(motion(pixel, project(camera, before, vec2(0.0))), away);
 }
 
 // The sky turns with the camera only.
@@ -71,7 +75,7 @@ void main() {
     camera.lens_radius = 0.0;
     Arrived a;
     a.pixel = pixel;
-    a.depth = 0u;
+    a.kind = RayKind(0u, false, 0.0);
     a.ray = camera_ray(camera, frame_film(vec2(at)), vec2(0.5), 0.0);
     a.beta = WHITE;
     a.media = push.view.media;
@@ -82,28 +86,29 @@ void main() {
         planes.at[PLANE_NORMAL * pixels + pixel] = uvec4(0u, 0u, 0u, floatBitsToUint(INFINITY));
         planes.at[PLANE_ALBEDO * pixels + pixel] = uvec4(0u);
         planes.at[PLANE_POSITION * pixels + pixel] = uvec4(0u, 0u, 0u, NONE);
-        planes.at[PLANE_MOTION * pixels + pixel] = uvec4(floatBitsToUint(moved), 0u, floatBitsToUint(1.0));
+        planes.at[PLANE_MOTION * pixels + pixel] = floatBitsToUint(vec4(moved, INFINITY, 0.0));
         planes.at[PLANE_EMISSION * pixels + pixel] = uvec4(0u, 0u, 0u, NONE);
+        planes.at[PLANE_SHARES * pixels + pixel] = floatBitsToUint(vec4(0.0, 0.0, 1.0, 0.0));
         return;
     }
     Hit hit = seen_hit(a.ray, id);
     Interaction it = interaction_new(a.ray, hit);
     a.beta *= medium_transmittance(medium_stack_current(a.media), it.t);
     Surface surface = surface_new(it, -a.ray.dir, a.media, ONE_INDEX);
-    sums_begin(pixel, show_surface(0u, a, it, surface));
+    sums_begin(pixel, show_surface(0u, a, it, surface, frame_sampler(pixel)));
     // The planes.
     Branches b = bsdf_branches(surface.bsdf, frame_to_local(surface.frame, -a.ray.dir), TRANSPORT_RADIANCE);
     vec2 shares = vec2(average(b.mirrored.weight + b.varnish.weight), average(b.through.weight));
     Mixture m = surface.bsdf.mixture;
     float roughness = sqrt(sqrt(m.ggx.alpha_x * m.ggx.alpha_y));
     float index = mixture_has_base(m) ? MATERIAL(it.material).ior : m.eta;
-    vec2 moved = motion_of_surface(vec2(at), it, hit);
+    vec3 moved = motion_of_surface(vec2(at), it, hit);
     Spectrum emitted = surface_emission(it);
     planes.at[PLANE_NORMAL * pixels + pixel] = floatBitsToUint(vec4(surface.frame.n, it.t));
     planes.at[PLANE_ALBEDO * pixels + pixel] =
         uvec4(floatBitsToUint(bsdf_albedo(surface.bsdf)), packHalf2x16(vec2(roughness, average(m.base_f0))));
     planes.at[PLANE_POSITION * pixels + pixel] = uvec4(floatBitsToUint(it.p), it.instance);
-    planes.at[PLANE_MOTION * pixels + pixel] =
-        uvec4(floatBitsToUint(moved), packHalf2x16(shares), floatBitsToUint(index));
+    planes.at[PLANE_MOTION * pixels + pixel] = floatBitsToUint(vec4(moved, 0.0));
     planes.at[PLANE_EMISSION * pixels + pixel] = uvec4(floatBitsToUint(emitted), it.material);
+    planes.at[PLANE_SHARES * pixels + pixel] = floatBitsToUint(vec4(shares, index, 0.0));
 }

@@ -6,6 +6,7 @@
 layout(local_size_x = 64) in;
 
 #include "hybrid/show.glsl"
+#include "hybrid/gathered.glsl"
 #include "hybrid/sums.glsl"
 
 void main() {
@@ -20,20 +21,29 @@ void main() {
     uvec4 met = RAY(list, RAY_HIT, index);
     Arrived a;
     a.pixel = beta.w;
-    a.depth = direction.w;
+    a.kind = ray_kind_unpack(direction.w);
     a.ray = ray_new(uintBitsToFloat(origin.xyz), uintBitsToFloat(direction.xyz), 0.0);
     a.beta = uintBitsToFloat(beta.xyz);
     a.media = medium_stack_empty();
     if (HAS_SOLID) {
         a.media = MediumStack(RAY(list, RAY_MEDIA, index), uintBitsToFloat(RAY(list, RAY_MEDIA + 1u, index)));
     }
+    bool gathers = GLOBAL_ILLUMINATION && a.kind.gathers;
+    uint channel = gathers ? CHANNEL_SOFT : CHANNEL_SHARP;
     if (met.x == NONE) {
-        sums_add(a.pixel, show_sky(a));
+        sums_add(channel, a.pixel, gathers ? gathered_sky(a) : show_sky(a));
         return;
     }
     Hit hit = hit_of(met.x, met.y, uintBitsToFloat(met.zw), uintBitsToFloat(origin.w));
     Interaction it = interaction_new(a.ray, hit);
     a.beta *= medium_transmittance(medium_stack_current(a.media), it.t);
     Surface surface = surface_new(it, -a.ray.dir, a.media, ONE_INDEX);
-    sums_add(a.pixel, show_surface(1u - list, a, it, surface));
+    Sampler smp = frame_sampler(a.pixel);
+    Spectrum light;
+    if (gathers) {
+        light = gathered_surface(1u - list, a, it, surface, smp);
+    } else {
+        light = show_surface(1u - list, a, it, surface, smp);
+    }
+    sums_add(channel, a.pixel, light);
 }

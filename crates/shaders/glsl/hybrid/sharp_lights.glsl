@@ -1,9 +1,28 @@
-// Lights with sharp shadows: point, spot and directional ones, and the sun as if it were a point of the sky.
+// Lights with sharp shadows: point, spot and directional ones, and the sun as if it were a point of the sky, where its shadows are not soft.
 #ifndef HYBRID_SHARP_LIGHTS_GLSL
 #define HYBRID_SHARP_LIGHTS_GLSL
 
 #include "hybrid/lists.glsl"
 #include "path/shadow_ray.glsl"
+
+// A ray that has been traced.
+struct Arrived {
+    uint pixel;
+    RayKind kind;
+    Ray ray;
+    Spectrum beta;
+    MediumStack media;
+};
+
+// Asks whether light arrives; `brings` if nothing is in the way.
+void light_add(uint list, Arrived a, Interaction it, Surface surface, LightSample light, Spectrum brings, bool soft) {
+    MediumStack beyond = a.media;
+    if (surface.is_solid && dot(light.wi, surface.ng) < 0.0) {
+        medium_stack_cross(beyond, surface.beyond, it.material, it.front);
+    }
+    bool passes = HAS_TRANSMISSION && shadow_solids_pass(light);
+    shadow_add(list, shadow_line(it, light), Asked(a.pixel, a.kind.depth, soft), passes, brings, beyond);
+}
 
 // Shadow rays that one surface asks for: of more lights the strongest there have shadows.
 const uint MOST_SHARP = 4u;
@@ -38,9 +57,9 @@ Spectrum sharp_unshadowed(Interaction it, Surface surface, vec3 wo_local, uint i
     return bsdf_eval(surface.bsdf, wo_local, wi_local, TRANSPORT_RADIANCE) * light.radiance;
 }
 
-// Asks for the shadows of the strongest lights, and returns the light of all others.
-Spectrum sharp_lights(uint list, Interaction it, Surface surface, vec3 wo, uint depth, Spectrum beta, uint pixel, MediumStack media) {
-    vec3 wo_local = frame_to_local(surface.frame, wo);
+// Asks for the shadows of the strongest lights, and returns the light of all others. `no_sun`: the sun is left out.
+Spectrum sharp_lights(uint list, Arrived a, Interaction it, Surface surface, bool no_sun) {
+    vec3 wo_local = frame_to_local(surface.frame, -a.ray.dir);
     Spectrum others = BLACK;
     Spectrum strongest[MOST_SHARP];
     uint ids[MOST_SHARP];
@@ -51,7 +70,10 @@ Spectrum sharp_lights(uint list, Interaction it, Surface surface, vec3 wo, uint 
     LightSample light;
     for (uint i = 0u; i < push.frame.sharp_light_count; ++i) {
         uint id = push.frame.sharp_lights.at[i];
-        Spectrum brings = beta * sharp_unshadowed(it, surface, wo_local, id, light);
+        if (HAS_SUN && no_sun && id == push.scene.sun.light) {
+            continue;
+        }
+        Spectrum brings = a.beta * sharp_unshadowed(it, surface, wo_local, id, light);
         // Each place takes the stronger of two; the weakest of all falls out at the end.
         for (uint k = 0u; k < MOST_SHARP; ++k) {
             if (average(brings) > average(strongest[k])) {
@@ -69,12 +91,7 @@ Spectrum sharp_lights(uint list, Interaction it, Surface surface, vec3 wo, uint 
         if (is_black(strongest[k]) || !sharp_light(ids[k], it.p, light)) {
             break;
         }
-        MediumStack beyond = media;
-        if (surface.is_solid && dot(light.wi, surface.ng) < 0.0) {
-            medium_stack_cross(beyond, surface.beyond, it.material, it.front);
-        }
-        bool passes = HAS_TRANSMISSION && shadow_solids_pass(light);
-        shadow_add(list, shadow_line(it, light), depth, passes, strongest[k], pixel, beyond);
+        light_add(list, a, it, surface, light, strongest[k], false);
     }
     return others;
 }

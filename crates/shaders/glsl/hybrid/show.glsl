@@ -1,23 +1,13 @@
-// What a ray finds, as Whitted's method shows it: emitted light, lights with sharp shadows, ambient light for all that no ray brings, and
-// further rays along each delta lobe.
+// What a ray finds that shows something to the camera, as Whitted's method has it: emitted light, lights, ambient light for all that no ray brings,
+// and further rays along each delta lobe.
 #ifndef HYBRID_SHOW_GLSL
 #define HYBRID_SHOW_GLSL
 
-#include "hybrid/sharp_lights.glsl"
+#include "hybrid/soft_lights.glsl"
 #include "bsdf/branches.glsl"
 
 // Rays that carry less are not traced.
 const float LEAST_BETA = 1.0 / 1024.0;
-
-// A ray that has been traced.
-struct Arrived {
-    uint pixel;
-    // Scattering events so far.
-    uint depth;
-    Ray ray;
-    Spectrum beta;
-    MediumStack media;
-};
 
 // Dispersed colours would need a ray each: all bands take the index of the d line.
 const Hue ONE_INDEX = Hue(HUE_STRAIGHT, 0.0, Sampler(0u, 0u));
@@ -50,23 +40,46 @@ void show_branch(uint list, Arrived a, Interaction it, Surface surface, Branch b
     if (refracted) {
         medium_stack_cross(media, surface.beyond, it.material, it.front);
     }
-    ray_add(list, ray_new(interaction_leave(it, wi), wi, 0.0), a.depth + 1u, beta, a.pixel, media);
+    ray_add(list, ray_new(interaction_leave(it, wi), wi, 0.0), RayKind(a.kind.depth + 1u, false, 0.0), beta, a.pixel, media);
+}
+
+// Light on the surface by its lobes that are no delta lobes. Returns what takes no ray.
+Spectrum show_lit(uint list, Arrived a, Interaction it, Surface surface, Sampler smp) {
+    bool first = a.kind.depth == 0u;
+    // The penumbra of the sun counts where the camera sees it itself.
+    bool soft_sun_here = SOFT_SHADOWS && HAS_SUN && first;
+    Spectrum light = sharp_lights(list, a, it, surface, soft_sun_here);
+    if (soft_sun_here) {
+        soft_sun(list, a, it, surface, smp);
+    }
+    if (SOFT_SHADOWS && HAS_TRIANGLE_LIGHTS) {
+        soft_lamp(list, a, it, surface, smp);
+    }
+    if (GLOBAL_ILLUMINATION) {
+        soft_gather(list, a, it, surface, smp);
+        return light;
+    }
+    Spectrum ambient = a.beta * push.frame.ambient * bsdf_smooth_albedo(surface.bsdf);
+    if (AMBIENT_OCCLUSION && first) {
+        soft_ambient(list, a, it, surface, ambient, smp);
+        return light;
+    }
+    return light + ambient;
 }
 
 // What the surface sends back along the ray by itself; asks for its shadow rays and for the rays that it scatters, in lists of this number.
-Spectrum show_surface(uint list, Arrived a, Interaction it, Surface surface) {
+Spectrum show_surface(uint list, Arrived a, Interaction it, Surface surface, Sampler smp) {
     uint flags = MATERIAL(it.material).flags;
     if (HAS_UNLIT && (flags & FLAG_UNLIT) != 0u) {
         return a.beta * surface.base_color;
     }
     Spectrum light = a.beta * surface_emission(it);
-    if (a.depth >= push.frame.depth) {
+    if (a.kind.depth >= push.frame.depth) {
         return light;
     }
     vec3 wo = -a.ray.dir;
     if (bsdf_has_smooth_lobes(surface.bsdf)) {
-        light += sharp_lights(list, it, surface, wo, a.depth, a.beta, a.pixel, a.media);
-        light += a.beta * push.frame.ambient * bsdf_smooth_albedo(surface.bsdf);
+        light += show_lit(list, a, it, surface, smp);
     }
     Branches b = bsdf_branches(surface.bsdf, frame_to_local(surface.frame, wo), TRANSPORT_RADIANCE);
     show_branch(list, a, it, surface, b.mirrored, false, false);

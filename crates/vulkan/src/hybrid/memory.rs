@@ -8,17 +8,37 @@ use lumbre_core::hybrid::{FrameReport, HybridSettings};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::View;
 use lumbre_shaders::camera::CameraRecord;
-use lumbre_shaders::hybrid::{FrameHeads, FrameTable, MOST_SHARP, PLANE_QUADS, RAY_QUADS, SHADOW_QUADS};
+use lumbre_shaders::hybrid::{
+    CHANNELS, FrameHeads, FrameTable, MOST_SHARP, PLANE_QUADS, PREVIOUS_QUADS, RAY_QUADS, SHADOW_QUADS,
+};
 use lumbre_shaders::view::{QueueHead, ViewTable};
 use std::mem::offset_of;
 
 /// Up to so many rays there is room for all that split.
 const ALL_SPLIT: u64 = 1 << 21;
 
+/// What was before a frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Since {
+    /// The camera of the frame before.
+    pub(super) camera: CameraRecord,
+    /// Address of the transforms then.
+    pub(super) transforms: u64,
+    /// Where in their pixels this frame looks, and the one before did.
+    pub(super) jitter: [f32; 2],
+    pub(super) previous_jitter: [f32; 2],
+    /// Which of two buffers is this frame's.
+    pub(super) turn: u32,
+    /// There was a frame before.
+    pub(super) has_history: bool,
+    /// Nothing has changed since.
+    pub(super) is_still: bool,
+}
+
 /// Memory of frames of one size.
 pub(super) struct Memory {
+    shape: Shape,
     pub(super) target: Target,
-    solids: bool,
     ray_capacity: u32,
     shadow_capacity: u32,
     planes: Buffer,
@@ -26,17 +46,45 @@ pub(super) struct Memory {
     shadows: Buffer,
     glass: Buffer,
     sums: Buffer,
+    previous_planes: Buffer,
+    /// Two that take turns, the history, two times moments.
+    filter: [Buffer; 5],
+    drawn: Buffer,
+    shown: [Buffer; 2],
     heads: Buffer,
     view: Buffer,
     frame: Buffer,
 }
 
-/// Rays and shadow rays that there is room for.
-fn capacities(size: [u32; 2], sharp_lights: u32) -> [u64; 2] {
-    let pixels = u64::from(size[0]) * u64::from(size[1]);
-    let rays = pixels.max((2 * pixels).min(ALL_SPLIT)).max(1);
-    // A generation of rays asks for no more than these.
-    [rays, rays * u64::from(sharp_lights.clamp(1, MOST_SHARP))]
+/// What frames need memory for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Shape {
+    /// Columns and rows that are drawn.
+    pub(super) size: [u32; 2],
+    /// Columns and rows that are shown.
+    pub(super) shown: [u32; 2],
+    /// Rays carry the solids that they are in.
+    pub(super) solids: bool,
+    /// Lights with sharp shadows.
+    pub(super) sharp_lights: u32,
+    /// There is soft light.
+    pub(super) soft: bool,
+}
+
+impl Shape {
+    fn pixels(&self) -> u64 {
+        u64::from(self.size[0]) * u64::from(self.size[1])
+    }
+
+    /// Rays and shadow rays that there is room for.
+    fn capacities(&self) -> [u64; 2] {
+        let pixels = self.pixels();
+        let gathered = if self.soft { pixels } else { 0 };
+        let rays = pixels.max((2 * pixels).min(ALL_SPLIT)).max(1) + gathered;
+        // A generation of rays asks for no more than these: of sharp lights, of the sun's disc, of a lamp or of what occludes ambient light.
+        let asked = self.sharp_lights.clamp(1, MOST_SHARP) + if self.soft { 2 } else { 0 };
+        [rays, rays * u64::from(asked)]
+    }
 }
 
 impl Memory {
@@ -44,41 +92,44 @@ impl Memory {
     ///
     /// # Errors
     /// If memory is out.
-    pub(super) fn new(
-        gpu: &Gpu,
-        size: [u32; 2],
-        solids: bool,
-        sharp_lights: u32,
-    ) -> Result<Self, VulkanError> {
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let [rays, shadows] = capacities(size, sharp_lights);
+    pub(super) fn new(gpu: &Gpu, shape: &Shape) -> Result<Self, VulkanError> {
+        let pixels = shape.pixels();
+        let [rays, shadows] = shape.capacities();
         let data = |name, bytes| Buffer::new(gpu, name, bytes, Purpose::Data);
         let heads = size_of::<FrameHeads>() as u64;
-        let kind = usize::from(solids);
+        let kind = usize::from(shape.solids);
+        // Without soft light nothing is filtered.
+        let filtered = if shape.soft { 16 * pixels } else { 0 };
+        let filter = || data("soft light", filtered);
+        let shown_pixels = u64::from(shape.shown[0]) * u64::from(shape.shown[1]);
+        let shown = || data("picture", 16 * shown_pixels);
         Ok(Memory {
-            target: Target::new(gpu, size)?,
-            solids,
+            shape: *shape,
+            target: Target::new(gpu, shape.size)?,
             ray_capacity: rays as u32,
             shadow_capacity: shadows as u32,
             planes: data("planes", 16 * PLANE_QUADS * pixels)?,
             rays: data("rays of a frame", 2 * 16 * RAY_QUADS[kind] * rays)?,
             shadows: data("shadow rays of a frame", 2 * 16 * SHADOW_QUADS[kind] * shadows)?,
             glass: data("shadow rays through glass", 2 * 4 * shadows)?,
-            sums: data("light of pixels", 3 * 8 * pixels)?,
+            sums: data("light of pixels", CHANNELS * 3 * 8 * pixels)?,
+            previous_planes: data("planes of the frame before", 16 * PREVIOUS_QUADS * pixels)?,
+            filter: [filter()?, filter()?, filter()?, filter()?, filter()?],
+            drawn: data("frame before anti-aliasing", 16 * pixels)?,
+            shown: [shown()?, shown()?],
             heads: data("lengths of lists", heads)?,
             view: data("view", size_of::<ViewTable>() as u64)?,
             frame: data("frame", size_of::<FrameTable>() as u64)?,
         })
     }
 
-    /// Whether it is that of such frames.
-    pub(super) fn suits(&self, size: [u32; 2], solids: bool, sharp_lights: u32) -> bool {
-        let [_, shadows] = capacities(size, sharp_lights);
-        self.target.size() == size && self.solids == solids && u64::from(self.shadow_capacity) == shadows
+    /// What it is for.
+    pub(super) fn shape(&self) -> &Shape {
+        &self.shape
     }
 
     pub(super) fn size(&self) -> [u32; 2] {
-        self.target.size()
+        self.shape.size
     }
 
     pub(super) fn view_address(&self) -> u64 {
@@ -104,7 +155,7 @@ impl Memory {
         backend: &VulkanBackend,
         (view, settings): (&View, &HybridSettings),
         [film, non_finite]: [u64; 2],
-        (media, previous): (&MediumStack, CameraRecord),
+        (media, since): (&MediumStack, &Since),
     ) -> (ViewTable, FrameTable) {
         let scene = backend.hybrid_scene();
         let size = self.size();
@@ -120,7 +171,8 @@ impl Memory {
             size,
             capacity: 0,
             seed: view.settings.seed,
-            frame: view.frame,
+            // The frame's number is that of its sample: points of a pixel are spread over its frames.
+            frame: 0,
             max_depth: settings.depth,
             roulette: u32::MAX,
             clamp_to: f32::INFINITY,
@@ -139,18 +191,39 @@ impl Memory {
             heads: self.heads.address(),
             sums: self.sums.address(),
             sharp_lights: scene.sharp_lights(),
-            previous_transforms: backend.scene_on_gpu().transforms(),
+            previous_planes: self.previous_planes.address(),
+            soft: [self.filter[0].address(), self.filter[1].address()],
+            soft_history: self.filter[2].address(),
+            moments: [self.filter[3].address(), self.filter[4].address()],
+            drawn: self.drawn.address(),
+            shown: [self.shown[0].address(), self.shown[1].address()],
+            previous_transforms: since.transforms,
             sharp_light_count: scene.sharp_light_count(),
             ray_capacity: self.ray_capacity,
             shadow_capacity: self.shadow_capacity,
             depth: settings.depth,
-            jitter: [0.0; 2],
+            jitter: since.jitter,
+            previous_jitter: since.previous_jitter,
             far,
             near,
             ambient: settings.ambient.unwrap_or(scene.ambient()).to_array(),
-            previous,
+            occlusion_reach: settings.occlusion_reach.unwrap_or(scene.occlusion_reach()),
+            previous: since.camera,
+            shown_size: self.shape.shown,
+            turn: since.turn,
+            has_history: since.has_history.into(),
+            is_still: since.is_still.into(),
         };
         (table, frame)
+    }
+
+    /// Keeps what the next frame wants to know of this one's planes.
+    pub(super) fn keep_planes(&self, commands: &Commands<'_>) {
+        let plane = 16 * self.shape.pixels();
+        // Normal and distance, position and instance: PLANE_NORMAL and PLANE_POSITION.
+        for (kept, from) in [(0, 0), (1, 2)] {
+            commands.copy((&self.planes, from * plane), (&self.previous_planes, kept * plane), plane);
+        }
     }
 
     /// Writes the tables, and empties all lists.

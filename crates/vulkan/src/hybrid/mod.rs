@@ -6,7 +6,10 @@
 //! for each ray one after another:
 //!   trace   closest surfaces of rays      ║ shadow   shadow rays asked for before
 //!   shade   what rays met; asks for more  ║ glass    those that meet what lets light through
-//! gather    light and planes to a film of one sample
+//! filter    soft light over time, then over space
+//! compose   sharp and soft light
+//! anti-aliasing
+//! gather    the picture and its planes to a film of one sample
 //! ```
 //!
 //! Surfaces, lights and rays are those of the path tracer (`glsl/path`), and so are hit and miss shaders; ray generation and binding tables are
@@ -24,11 +27,12 @@ use crate::path::film::FilmOnGpu;
 use crate::{Buffer, Pending, Timer, VulkanBackend, VulkanError};
 use bytemuck::bytes_of;
 use lumbre_core::film::Film;
-use lumbre_core::hybrid::{FrameDone, FrameView};
+use lumbre_core::hybrid::{AntiAliasing, FrameDone, FrameView, HybridSettings};
 use lumbre_shaders::camera::CameraRecord;
 use lumbre_shaders::hybrid::FramePush;
 use lumbre_shaders::view::Push;
-use memory::Memory;
+use memory::{Memory, Shape, Since};
+use passes::Course;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -37,12 +41,21 @@ pub struct Hybrid<'a> {
     backend: &'a VulkanBackend,
     memory: Option<Memory>,
     film: FilmOnGpu,
-    /// The camera of the frame before.
-    previous: Option<CameraRecord>,
+    /// The frame before.
+    previous: Option<Previous>,
     /// The last frame as it was read, unless there has been another since.
     host: Option<Film>,
     /// Frames under way, the oldest first: two at most.
     under_way: VecDeque<Flight>,
+}
+
+/// What a frame leaves for the next.
+#[derive(Clone, Copy, PartialEq)]
+struct Previous {
+    camera: CameraRecord,
+    settings: HybridSettings,
+    jitter: [f32; 2],
+    turn: u32,
 }
 
 /// A frame under way, and where its figures will be.
@@ -106,16 +119,15 @@ impl Hybrid<'_> {
         self.under_way.pop_front().map(Flight::done).transpose()
     }
 
-    /// Memory for frames of this size.
-    fn make_room(&mut self, size: [u32; 2], solids: bool) -> Result<(), VulkanError> {
+    /// Memory for frames of this shape.
+    fn make_room(&mut self, shape: &Shape) -> Result<(), VulkanError> {
         let gpu = self.backend.gpu();
-        let sharp = self.backend.hybrid_scene().sharp_light_count();
-        if self.memory.as_ref().is_none_or(|m| !m.suits(size, solids, sharp)) {
+        if self.memory.as_ref().is_none_or(|m| m.shape() != shape) {
             // The old one goes first: there may not be room for both.
-            self.memory = None;
-            self.memory = Some(Memory::new(gpu, size, solids, sharp)?);
+            (self.memory, self.previous) = (None, None);
+            self.memory = Some(Memory::new(gpu, shape)?);
         }
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
+        let pixels = u64::from(shape.shown[0]) * u64::from(shape.shown[1]);
         if self.film.pixels() != pixels {
             self.film = FilmOnGpu::new(gpu, pixels)?;
         }
@@ -126,20 +138,29 @@ impl Hybrid<'_> {
         let &FrameView { view, size, settings } = shot;
         let backend = self.backend;
         let gpu = backend.gpu();
-        let (passes, media) = backend.hybrid_parts(view)?;
+        let (passes, media) = backend.hybrid_parts(view, settings)?;
         self.host = None;
-        self.make_room(size, passes.solids())?;
+        let drawn = settings.drawn_size(size);
+        self.make_room(&Shape {
+            size: drawn,
+            shown: size,
+            solids: passes.solids(),
+            sharp_lights: backend.hybrid_scene().sharp_light_count(),
+            soft: settings.has_soft_light(),
+        })?;
         let memory = self.memory.as_ref().expect("made above");
         let camera = CameraRecord::from(&view.camera);
-        let previous = self.previous.replace(camera).unwrap_or(camera);
-        let tables = memory.tables(backend, (view, settings), self.film.addresses(), (&media, previous));
+        let since = since(self.previous.as_ref(), &camera, shot, backend.scene_on_gpu().transforms());
+        self.previous =
+            Some(Previous { camera, settings: *settings, jitter: since.jitter, turn: since.turn });
+        let tables = memory.tables(backend, (view, settings), self.film.addresses(), (&media, &since));
         let path = Push {
             tables: backend.tables_address(),
             scene: backend.scene_on_gpu().address(),
             view: memory.view_address(),
             first_pixel: [0, 0],
-            size,
-            first_sample: 0,
+            size: drawn,
+            first_sample: view.frame,
             sample_count: 1,
             parity: 0,
             group: 0,
@@ -147,13 +168,14 @@ impl Hybrid<'_> {
         let push = FramePush { path, frame: memory.frame_address() };
         let draws = &backend.scene_on_gpu().draws;
         let visible = passes.visible(gpu, (memory.target.pass(), draws), backend.pipeline_cache())?;
-        let timer = Timer::new(gpu, passes.stamps(settings.depth))?;
+        let course = Course::of(settings);
+        let timer = Timer::new(gpu, course.stamps())?;
         let heads = Memory::readback(gpu)?;
         let mut names = Vec::new();
         let pending = gpu.submit("a hybrid frame", |commands| {
             memory.begin(commands, [bytes_of(&tables.0), bytes_of(&tables.1)]);
             self.film.begin(commands);
-            names = passes.record(commands, (memory, draws, &visible), &timer, (&push, settings.depth));
+            names = passes.record(commands, (memory, draws, &visible), &timer, (&push, &course));
             memory.copy_heads(commands, &heads);
             Ok(())
         })?;
@@ -169,7 +191,7 @@ impl Hybrid<'_> {
     /// # Panics
     /// Before the first frame.
     pub fn film(&mut self) -> Result<&Film, VulkanError> {
-        let [width, height] = self.memory.as_ref().expect("a frame was drawn").size();
+        let [width, height] = self.memory.as_ref().expect("a frame was drawn").shape().shown;
         let film = match self.host.take() {
             Some(film) => film,
             None => {
@@ -180,6 +202,41 @@ impl Hybrid<'_> {
         };
         Ok(self.host.insert(film))
     }
+}
+
+/// What was before a frame.
+fn since(previous: Option<&Previous>, camera: &CameraRecord, shot: &FrameView<'_>, transforms: u64) -> Since {
+    let same = previous.filter(|p| p.settings == *shot.settings);
+    let jitter = match shot.settings.anti_aliasing {
+        AntiAliasing::Temporal => jitter(shot.view.frame),
+        AntiAliasing::None | AntiAliasing::Fxaa => [0.0; 2],
+    };
+    Since {
+        camera: same.map_or(*camera, |p| p.camera),
+        transforms,
+        jitter,
+        previous_jitter: same.map_or(jitter, |p| p.jitter),
+        turn: previous.map_or(0, |p| 1 - p.turn),
+        has_history: same.is_some(),
+        is_still: same.is_some_and(|p| p.camera == *camera),
+    }
+}
+
+/// Places in their pixels through which frames look one after another.
+const PLACES: u32 = 32;
+
+/// Offset from the centre of a pixel, pixels: points of Halton's sequence in bases 2 and 3.
+fn jitter(frame: u32) -> [f32; 2] {
+    let at = frame % PLACES + 1;
+    [2, 3].map(|base| {
+        let (mut n, mut digit, mut sum) = (at, 1.0, 0.0);
+        while n > 0 {
+            digit /= base as f32;
+            sum += digit * (n % base) as f32;
+            n /= base;
+        }
+        sum - 0.5
+    })
 }
 
 impl Flight {

@@ -9,6 +9,7 @@ use crate::raster::{Draws, Face, RasterPipeline};
 use crate::{Commands, Gpu, PipelineCache, RayPipeline, SceneOnGpu, Specialisation, Timer, VulkanError};
 use ash::vk;
 use bytemuck::bytes_of;
+use lumbre_core::hybrid::{AntiAliasing, HybridSettings};
 use lumbre_shaders::hybrid::{FrameHeads, FramePush, passes};
 use std::mem::offset_of;
 use std::ops::Range;
@@ -34,7 +35,42 @@ pub(crate) struct HybridPasses {
     shade: ComputePipeline,
     shadow: RayPipeline,
     glass: Option<RayPipeline>,
+    temporal: ComputePipeline,
+    atrous: ComputePipeline,
+    compose: ComputePipeline,
+    anti_aliasing: [ComputePipeline; 2],
     gather: ComputePipeline,
+}
+
+/// What a frame does.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course {
+    /// Rays one after another.
+    depth: u32,
+    /// Passes of the filter over space.
+    filters: u32,
+    anti_aliasing: AntiAliasing,
+}
+
+/// Passes of the filter over space, the last with holes of 15 pixels.
+const FILTERS: u32 = 5;
+
+impl Course {
+    pub(super) fn of(settings: &HybridSettings) -> Self {
+        Course {
+            depth: settings.depth,
+            filters: if settings.filter && settings.has_soft_light() { FILTERS } else { 0 },
+            anti_aliasing: settings.anti_aliasing,
+        }
+    }
+
+    /// Stamps that a frame makes.
+    pub(super) fn stamps(&self) -> usize {
+        let filters = if self.filters > 0 { 2 } else { 0 };
+        let edges = usize::from(self.anti_aliasing != AntiAliasing::None);
+        // visible, planes, two for each generation of rays, compose, gather.
+        5 + 2 * self.depth as usize + filters + edges
+    }
 }
 
 impl HybridPasses {
@@ -65,6 +101,10 @@ impl HybridPasses {
             shade: compute(passes::SHADE)?,
             shadow: rays(passes::SHADOW, Kinds::Shadow)?,
             glass: needs.transmission.then(|| rays(passes::GLASS, Kinds::Radiance)).transpose()?,
+            temporal: compute(passes::FILTER_TEMPORAL)?,
+            atrous: compute(passes::FILTER_ATROUS)?,
+            compose: compute(passes::COMPOSE)?,
+            anti_aliasing: [compute(passes::AA_FXAA)?, compute(passes::AA_TEMPORAL)?],
             gather: compute(passes::GATHER)?,
         })
     }
@@ -72,12 +112,6 @@ impl HybridPasses {
     /// Whether rays carry the media that they are in.
     pub(super) fn solids(&self) -> bool {
         self.needs.solids
-    }
-
-    /// Stamps that a frame makes.
-    pub(super) fn stamps(&self, depth: u32) -> usize {
-        // visible, planes, two for each generation of rays, gather.
-        4 + 2 * depth as usize
     }
 
     /// Draws, each with its pipeline.
@@ -125,7 +159,7 @@ impl HybridPasses {
         commands: &Commands<'_>,
         (memory, draws, visible): (&Memory, &Draws, &[Visible]),
         timer: &Timer,
-        (push, depth): (&FramePush, u32),
+        (push, course): (&FramePush, &Course),
     ) -> Vec<&'static str> {
         let mut names = Vec::new();
         let mut done = |name| {
@@ -146,7 +180,7 @@ impl HybridPasses {
         done("visible");
         self.planes.dispatch(commands, bytes_of(push), groups);
         done("planes");
-        for generation in 0..depth {
+        for generation in 0..course.depth {
             let list = generation % 2;
             let mut push = *push;
             push.path.parity = list;
@@ -164,7 +198,36 @@ impl HybridPasses {
             }
             done("shade + glass");
         }
-        self.gather.dispatch(commands, bytes_of(push), groups);
+        let with = |number: u32| {
+            let mut push = *push;
+            push.path.sample_count = number;
+            push
+        };
+        if course.filters > 0 {
+            self.temporal.dispatch(commands, bytes_of(push), groups);
+            done("filter over time");
+            for pass in 0..course.filters {
+                self.atrous.dispatch(commands, bytes_of(&with(pass)), groups);
+                commands.barrier();
+            }
+            done("filter over space");
+        }
+        self.compose.dispatch(commands, bytes_of(&with(course.filters)), groups);
+        memory.keep_planes(commands);
+        done("compose");
+        let [shown_width, shown_height] = memory.shape().shown;
+        let shown_groups = [shown_width.div_ceil(GROUP), shown_height.div_ceil(GROUP)];
+        let [fxaa, temporal] = &self.anti_aliasing;
+        match course.anti_aliasing {
+            AntiAliasing::None => {}
+            AntiAliasing::Fxaa => fxaa.dispatch(commands, bytes_of(push), groups),
+            AntiAliasing::Temporal => temporal.dispatch(commands, bytes_of(push), shown_groups),
+        }
+        let edges = u32::from(course.anti_aliasing != AntiAliasing::None);
+        if edges > 0 {
+            done("anti-aliasing");
+        }
+        self.gather.dispatch(commands, bytes_of(&with(edges)), shown_groups);
         done("gather");
         names
     }

@@ -57,11 +57,21 @@ impl HybridScene {
         self.ambient
     }
 
+    /// Metres beyond which nothing occludes ambient light: a twentieth of the scene.
+    pub(crate) fn occlusion_reach(&self) -> f32 {
+        0.05 * self.extent()
+    }
+
+    /// How large the scene is, metres.
+    fn extent(&self) -> f32 {
+        let size = (self.bounds[1] - self.bounds[0]).length();
+        if size.is_finite() && size > 0.0 { size } else { 1.0 }
+    }
+
     /// Nearest distance that is drawn, and for a camera whose rays are parallel the farthest, metres.
     pub(crate) fn range(&self, camera: &Camera) -> [f32; 2] {
         let [min, max] = self.bounds;
-        let size = (max - min).length();
-        let size = if size.is_finite() && size > 0.0 { size } else { 1.0 };
+        let size = self.extent();
         let corner = |i: usize| {
             let pick = |axis: usize| if i >> axis & 1 == 0 { min[axis] } else { max[axis] };
             camera.forward.dot(Vec3::new(pick(0), pick(1), pick(2)) - camera.origin)

@@ -70,10 +70,6 @@ impl Target {
         Ok(target)
     }
 
-    pub(crate) fn size(&self) -> [u32; 2] {
-        self.size
-    }
-
     /// The pass; pipelines made for one of the same kind serve, too.
     pub(crate) fn pass(&self) -> vk::RenderPass {
         self.pass

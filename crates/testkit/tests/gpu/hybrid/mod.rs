@@ -1,6 +1,7 @@
 //! Hybrid frames: what the rasteriser sees against the path tracer's first hits, what rays bring against paths under the same restrictions.
 
 mod planes;
+mod soft;
 mod whitted;
 
 use lumbre_core::Film;

@@ -5,7 +5,7 @@ use crate::common::{Both, assert_none, load, shared};
 use glam::Vec3;
 use lumbre_core::Film;
 use lumbre_core::film::PixelSums;
-use lumbre_core::hybrid::HybridSettings;
+use lumbre_core::hybrid::{AntiAliasing, HybridSettings};
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_testkit::ready::asset;
 use std::path::Path;
@@ -73,7 +73,12 @@ fn first_hits(both: &Both, view: &View) -> Film {
 }
 
 fn drawn(both: &Both, view: &View) -> Film {
-    frame(&both.vulkan, &centred(view), SIZE, &HybridSettings { depth: 0, ..HybridSettings::default() })
+    frame(
+        &both.vulkan,
+        &centred(view),
+        SIZE,
+        &HybridSettings { depth: 0, anti_aliasing: AntiAliasing::None, ..HybridSettings::THESIS },
+    )
 }
 
 fn check(name: &str, both: &Both, view: &View, faults: &mut Vec<String>) {

@@ -3,7 +3,7 @@
 use super::{centred, frame};
 use crate::common::{Both, compile};
 use glam::Vec3;
-use lumbre_core::hybrid::HybridSettings;
+use lumbre_core::hybrid::{AntiAliasing, HybridSettings};
 use lumbre_core::settings::{RenderSettings, View};
 use lumbre_core::{Camera, Film, Rgb, Spectrum};
 use lumbre_scene::{Light, LightId, LightKind, Material, Node, Scene};
@@ -56,7 +56,12 @@ fn view() -> View {
     centred(&View { camera, settings, frame: 0 })
 }
 
-const SHARP: HybridSettings = HybridSettings { depth: 6, ambient: Some(Spectrum::BLACK) };
+const SHARP: HybridSettings = HybridSettings {
+    depth: 6,
+    ambient: Some(Spectrum::BLACK),
+    anti_aliasing: AntiAliasing::None,
+    ..HybridSettings::THESIS
+};
 
 /// Pixels that differ by more than 4.5 standard errors and 0.2 %, and the difference of the means over that of the paths.
 fn compare(paths: &Film, frame: &Film) -> (usize, f64) {

@@ -3,6 +3,7 @@
 use super::{VARIANTS, VulkanBackend};
 use crate::hybrid::{HybridPasses, HybridScene};
 use crate::{PipelineCache, SceneOnGpu, VulkanError};
+use lumbre_core::hybrid::HybridSettings;
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::{RenderSettings, View};
 use std::sync::Arc;
@@ -29,7 +30,11 @@ impl VulkanBackend {
     ///
     /// # Errors
     /// If an update failed before, the driver refuses a pipeline or memory is out.
-    pub(crate) fn hybrid_parts(&self, view: &View) -> Result<(Arc<HybridPasses>, MediumStack), VulkanError> {
+    pub(crate) fn hybrid_parts(
+        &self,
+        view: &View,
+        hybrid: &HybridSettings,
+    ) -> Result<(Arc<HybridPasses>, MediumStack), VulkanError> {
         self.failed.clone().map_or(Ok(()), Err)?;
         let mut work = self.lock();
         let media = self.media_around(&mut work, view.camera.origin);
@@ -37,7 +42,12 @@ impl VulkanBackend {
         let path = RenderSettings::default();
         let settings =
             RenderSettings { sampler: path.sampler, light_sampling: true, clamp: None, ..view.settings };
-        let constants = self.constants.with(&settings);
+        let constants = self
+            .constants
+            .with(&settings)
+            .bool(70, hybrid.soft_shadows)
+            .bool(71, hybrid.global_illumination)
+            .bool(72, hybrid.ambient_occlusion);
         if let Some(found) = work.hybrid.iter().position(|p| p.0 == constants) {
             work.hybrid[..=found].rotate_right(1);
             return Ok((work.hybrid[0].1.clone(), media));
