@@ -49,8 +49,10 @@ pub const RAY_QUADS: [u64; 2] = [4, 6];
 /// How many times four words a shadow ray takes: without solids, and with them.
 pub const SHADOW_QUADS: [u64; 2] = [3, 5];
 
-/// Kinds of light that a frame sums apart: sharp and soft.
-pub const CHANNELS: u64 = 2;
+/// Kinds of light that a frame sums apart: sharp, soft and gathered.
+pub const CHANNELS: u64 = 3;
+/// Bytes of the sums from which ambient light is found.
+pub const MEASURED_BYTES: u64 = 32;
 /// Shadow rays to lights with sharp shadows that one surface asks for.
 pub const MOST_SHARP: u32 = 4;
 
@@ -92,6 +94,8 @@ pub struct FrameTable {
     pub heads: u64,
     /// Address of the light of each pixel, three sums of quanta for each of [`CHANNELS`].
     pub sums: u64,
+    /// Addresses of what gathering rays brought in the mean: two sums that take turns, [`MEASURED_BYTES`] each.
+    pub measured: [u64; 2],
     /// Address of the numbers of lights with sharp shadows.
     pub sharp_lights: u64,
     /// Address of what is kept of the planes of the frame before: [`PREVIOUS_QUADS`] of each pixel.
@@ -124,7 +128,7 @@ pub struct FrameTable {
     pub far: f32,
     /// Nearest distance that is drawn, metres.
     pub near: f32,
-    /// Radiance that stands for what no ray brings.
+    /// Radiance that stands for what no ray brings, until it is measured.
     pub ambient: [f32; 3],
     /// Metres beyond which nothing occludes ambient light.
     pub occlusion_reach: f32,
@@ -138,6 +142,10 @@ pub struct FrameTable {
     pub has_history: u32,
     /// 1: and nothing has changed since.
     pub is_still: u32,
+    /// 1: `ambient` counts, whatever is measured.
+    pub ambient_is_given: u32,
+    /// Always 0: what alignment leaves over.
+    pub unused: u32,
 }
 
 /// Push constants of the passes.

@@ -157,9 +157,9 @@ fn frames_lie_alike() {
     push.insert("frame".to_owned(), offset_of!(FramePush, frame) as u32);
     let mut rust = vec![
         ("Push", push),
-        fields!("FrameTable", FrameTable { ids, planes, rays, shadows, glass, heads, sums, sharp_lights, previous_planes, soft, soft_history,
+        fields!("FrameTable", FrameTable { ids, planes, rays, shadows, glass, heads, sums, measured, sharp_lights, previous_planes, soft, soft_history,
             moments, drawn, shown, previous_transforms, sharp_light_count, ray_capacity, shadow_capacity, depth, jitter, previous_jitter, far,
-            near, ambient, occlusion_reach, previous, shown_size, turn, has_history, is_still }),
+            near, ambient, occlusion_reach, previous, shown_size, turn, has_history, is_still, ambient_is_given, unused }),
         fields!(
             "FrameHeads",
             FrameHeads { rays, shadows, glass, groups, traced_rays, traced_shadows, dropped }

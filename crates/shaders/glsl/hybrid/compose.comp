@@ -18,7 +18,7 @@ void main() {
     if (passes > 0u) {
         light += push.frame.soft[passes % 2u].at[pixel].xyz * plane_albedo(pixel);
     } else {
-        light += sums_read(CHANNEL_SOFT, pixel);
+        light += sums_read(CHANNEL_SOFT, pixel) + sums_read(CHANNEL_GATHERED, pixel);
     }
     float covered = PLANE(PLANE_POSITION, pixel).w != NONE ? 1.0 : 0.0;
     FrameFloats drawn = push.frame.drawn;

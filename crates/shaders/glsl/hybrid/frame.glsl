@@ -52,6 +52,12 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FrameFloats
     vec4 at[];
 };
 
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AmbientSums {
+    // Light over albedo, quanta of 2^-24, and the pixels that it is of.
+    uint64_t light[3];
+    uint64_t pixels;
+};
+
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FrameTable {
     // What the rasteriser saw of each pixel: geometry, primitive; NONE: nothing.
     FrameIds ids;
@@ -66,6 +72,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fra
     FrameHeads heads;
     // Light of each pixel, three sums of quanta for each channel.
     FrameSums sums;
+    // What gathering rays brought in the mean: sums of this frame and of the one before.
+    AmbientSums measured[2];
     // Lights with sharp shadows.
     FrameNumbers sharp_lights;
     // Of each pixel of the frame before: PREVIOUS_QUADS times four words.
@@ -92,7 +100,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fra
     float far;
     // Nearest distance that is drawn, metres.
     float near;
-    // Radiance that stands for what no ray brings.
+    // Radiance that stands for what no ray brings, until it is measured.
     vec3 ambient;
     // Metres beyond which nothing occludes ambient light.
     float occlusion_reach;
@@ -105,6 +113,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fra
     // There was a frame before; and nothing has changed since.
     uint has_history;
     uint is_still;
+    // The ambient light of the settings counts, whatever is measured.
+    uint ambient_is_given;
+    uint unused;
 };
 
 #define HYBRID
@@ -128,10 +139,12 @@ const uint PREVIOUS_NORMAL = 0u;
 const uint PREVIOUS_POSITION = 1u;
 const uint PREVIOUS_QUADS = 2u;
 
-// Light that is brought by the rays that it takes (sharp), and light of which each frame has a sample (soft), to be filtered.
+// Light that is brought by the rays that it takes (sharp), and light of which each frame has a sample, to be filtered: straight from lamps and sun (soft),
+// and from the sky and other surfaces (gathered).
 const uint CHANNEL_SHARP = 0u;
 const uint CHANNEL_SOFT = 1u;
-const uint CHANNELS = 2u;
+const uint CHANNEL_GATHERED = 2u;
+const uint CHANNELS = 3u;
 
 // What frames have beside sharp shadows, mirrors and glass.
 layout(constant_id = 70) const bool SOFT_SHADOWS = false;
@@ -175,9 +188,9 @@ const uint SHADOW_QUADS = 5u;
 
 // Solids let this light through straight.
 const uint SHADOW_PASSES = 0x80000000u;
-// It is light of the soft channel.
-const uint SHADOW_SOFT = 0x40000000u;
-const uint SHADOW_DEPTH = 0x3fffffffu;
+// The channel of its light.
+const uint SHADOW_CHANNEL_SHIFT = 8u;
+const uint SHADOW_DEPTH = 0xffu;
 
 uint frame_pixels() {
     return push.view.size.x * push.view.size.y;
@@ -208,6 +221,16 @@ Sampler frame_sampler(uint pixel) {
 // Where the camera looks through a pixel, in the unit square.
 vec2 frame_film(vec2 pixel) {
     return (vec2(push.view.origin) + pixel + 0.5 + push.frame.jitter) / vec2(push.view.picture);
+}
+
+// Ambient radiance: what gathering rays found in the mean in the frame before, so that light between surfaces bounces on over frames.
+vec3 frame_ambient() {
+    AmbientSums measured = push.frame.measured[1u - push.frame.turn];
+    if (!GLOBAL_ILLUMINATION || push.frame.ambient_is_given != 0u || push.frame.has_history == 0u || measured.pixels == 0ul) {
+        return push.frame.ambient;
+    }
+    vec3 sum = vec3(float(measured.light[0]), float(measured.light[1]), float(measured.light[2]));
+    return sum * (1.0 / 16777216.0) / float(measured.pixels);
 }
 
 #endif

@@ -61,7 +61,7 @@ void gathered_light(uint list, Arrived a, Interaction it, Surface surface, Sampl
     }
     brings *= a.beta * sum;
     if (!is_black(brings)) {
-        light_add(list, a, it, surface, chosen, brings, true);
+        light_add(list, a, it, surface, chosen, brings, CHANNEL_GATHERED);
     }
 }
 
@@ -103,7 +103,7 @@ Spectrum gathered_surface(uint list, Arrived a, Interaction it, Surface surface,
     }
     if (bsdf_has_smooth_lobes(surface.bsdf)) {
         gathered_light(list, a, it, surface, smp);
-        light += a.beta * push.frame.ambient * bsdf_smooth_albedo(surface.bsdf);
+        light += a.beta * frame_ambient() * bsdf_smooth_albedo(surface.bsdf);
     }
     gathered_branch(list, a, it, surface, smp);
     return light;

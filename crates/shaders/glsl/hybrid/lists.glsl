@@ -44,7 +44,7 @@ struct Asked {
     uint pixel;
     // Scattering events before the surface that asks.
     uint depth;
-    bool soft;
+    uint channel;
 };
 
 // Adds a shadow ray to a list.
@@ -56,7 +56,7 @@ void shadow_add(uint list, Ray ray, Asked asked, bool solids_pass, Spectrum ligh
         return;
     }
     FrameQuads shadows = push.frame.shadows;
-    uint bits = asked.depth | (solids_pass ? SHADOW_PASSES : 0u) | (asked.soft ? SHADOW_SOFT : 0u);
+    uint bits = asked.depth | (solids_pass ? SHADOW_PASSES : 0u) | (asked.channel << SHADOW_CHANNEL_SHIFT);
     shadows.at[shadow_at_place(list, SHADOW_ORIGIN, at)] = floatBitsToUint(vec4(ray.origin, ray.t_max));
     shadows.at[shadow_at_place(list, SHADOW_DIRECTION, at)] = uvec4(floatBitsToUint(ray.dir), bits);
     shadows.at[shadow_at_place(list, SHADOW_LIGHT, at)] = uvec4(floatBitsToUint(light), asked.pixel);

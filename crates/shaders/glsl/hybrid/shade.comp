@@ -29,7 +29,7 @@ void main() {
         a.media = MediumStack(RAY(list, RAY_MEDIA, index), uintBitsToFloat(RAY(list, RAY_MEDIA + 1u, index)));
     }
     bool gathers = GLOBAL_ILLUMINATION && a.kind.gathers;
-    uint channel = gathers ? CHANNEL_SOFT : CHANNEL_SHARP;
+    uint channel = gathers ? CHANNEL_GATHERED : CHANNEL_SHARP;
     if (met.x == NONE) {
         sums_add(channel, a.pixel, gathers ? gathered_sky(a) : show_sky(a));
         return;

@@ -15,13 +15,13 @@ struct Arrived {
 };
 
 // Asks whether light arrives; `brings` if nothing is in the way.
-void light_add(uint list, Arrived a, Interaction it, Surface surface, LightSample light, Spectrum brings, bool soft) {
+void light_add(uint list, Arrived a, Interaction it, Surface surface, LightSample light, Spectrum brings, uint channel) {
     MediumStack beyond = a.media;
     if (surface.is_solid && dot(light.wi, surface.ng) < 0.0) {
         medium_stack_cross(beyond, surface.beyond, it.material, it.front);
     }
     bool passes = HAS_TRANSMISSION && shadow_solids_pass(light);
-    shadow_add(list, shadow_line(it, light), Asked(a.pixel, a.kind.depth, soft), passes, brings, beyond);
+    shadow_add(list, shadow_line(it, light), Asked(a.pixel, a.kind.depth, channel), passes, brings, beyond);
 }
 
 // Shadow rays that one surface asks for: of more lights the strongest there have shadows.
@@ -91,7 +91,7 @@ Spectrum sharp_lights(uint list, Arrived a, Interaction it, Surface surface, boo
         if (is_black(strongest[k]) || !sharp_light(ids[k], it.p, light)) {
             break;
         }
-        light_add(list, a, it, surface, light, strongest[k], false);
+        light_add(list, a, it, surface, light, strongest[k], CHANNEL_SHARP);
     }
     return others;
 }

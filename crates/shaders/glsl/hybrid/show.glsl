@@ -59,7 +59,7 @@ Spectrum show_lit(uint list, Arrived a, Interaction it, Surface surface, Sampler
         soft_gather(list, a, it, surface, smp);
         return light;
     }
-    Spectrum ambient = a.beta * push.frame.ambient * bsdf_smooth_albedo(surface.bsdf);
+    Spectrum ambient = a.beta * frame_ambient() * bsdf_smooth_albedo(surface.bsdf);
     if (AMBIENT_OCCLUSION && first) {
         soft_ambient(list, a, it, surface, ambient, smp);
         return light;

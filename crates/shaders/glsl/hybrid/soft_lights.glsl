@@ -31,7 +31,7 @@ void soft_sun(uint list, Arrived a, Interaction it, Surface surface, Sampler smp
     float pdf_bsdf;
     Spectrum brings = a.beta * soft_unshadowed(surface, frame_to_local(surface.frame, -a.ray.dir), light, pdf_bsdf);
     if (!is_black(brings)) {
-        light_add(list, a, it, surface, light, brings, true);
+        light_add(list, a, it, surface, light, brings, CHANNEL_SOFT);
     }
 }
 
@@ -48,7 +48,7 @@ void soft_lamp(uint list, Arrived a, Interaction it, Surface surface, Sampler sm
         brings *= power_heuristic(light.pdf, pdf_bsdf);
     }
     if (!is_black(brings)) {
-        light_add(list, a, it, surface, light, brings, true);
+        light_add(list, a, it, surface, light, brings, CHANNEL_SOFT);
     }
 }
 
@@ -59,7 +59,7 @@ void soft_ambient(uint list, Arrived a, Interaction it, Surface surface, Spectru
         return;
     }
     Ray ray = Ray(interaction_leave(it, wi), wi, 0.0, push.frame.occlusion_reach, 0.0);
-    shadow_add(list, ray, Asked(a.pixel, a.kind.depth, true), true, ambient, a.media);
+    shadow_add(list, ray, Asked(a.pixel, a.kind.depth, CHANNEL_SOFT), true, ambient, a.media);
 }
 
 // What mirrors and glass show of a surface is gathered for each frame where it is at least this share of what they show.

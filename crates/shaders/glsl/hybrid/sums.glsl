@@ -12,12 +12,13 @@ uint sum_place(uint channel, uint band, uint pixel) {
     return (3u * channel + band) * frame_pixels() + pixel;
 }
 
-// Both channels of a pixel: this light in the sharp one.
+// All channels of a pixel: this light in the sharp one.
 void sums_begin(uint pixel, Spectrum light) {
     FrameSums sums = push.frame.sums;
     for (uint i = 0u; i < 3u; ++i) {
         sums.at[sum_place(CHANNEL_SHARP, i, pixel)] = uint64_t(film_quantise(light[i]));
         sums.at[sum_place(CHANNEL_SOFT, i, pixel)] = 0ul;
+        sums.at[sum_place(CHANNEL_GATHERED, i, pixel)] = 0ul;
     }
 }
 

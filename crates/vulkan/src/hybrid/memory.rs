@@ -9,7 +9,8 @@ use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::View;
 use lumbre_shaders::camera::CameraRecord;
 use lumbre_shaders::hybrid::{
-    CHANNELS, FrameHeads, FrameTable, MOST_SHARP, PLANE_QUADS, PREVIOUS_QUADS, RAY_QUADS, SHADOW_QUADS,
+    CHANNELS, FrameHeads, FrameTable, MEASURED_BYTES, MOST_SHARP, PLANE_QUADS, PREVIOUS_QUADS, RAY_QUADS,
+    SHADOW_QUADS,
 };
 use lumbre_shaders::view::{QueueHead, ViewTable};
 use std::mem::offset_of;
@@ -47,6 +48,7 @@ pub(super) struct Memory {
     glass: Buffer,
     sums: Buffer,
     previous_planes: Buffer,
+    measured: [Buffer; 2],
     /// Two that take turns, the history, two times moments.
     filter: [Buffer; 5],
     drawn: Buffer,
@@ -115,6 +117,7 @@ impl Memory {
             sums: data("light of pixels", CHANNELS * 3 * 8 * pixels)?,
             previous_planes: data("planes of the frame before", 16 * PREVIOUS_QUADS * pixels)?,
             filter: [filter()?, filter()?, filter()?, filter()?, filter()?],
+            measured: [data("ambient light", MEASURED_BYTES)?, data("ambient light", MEASURED_BYTES)?],
             drawn: data("frame before anti-aliasing", 16 * pixels)?,
             shown: [shown()?, shown()?],
             heads: data("lengths of lists", heads)?,
@@ -190,6 +193,7 @@ impl Memory {
             glass: self.glass.address(),
             heads: self.heads.address(),
             sums: self.sums.address(),
+            measured: [self.measured[0].address(), self.measured[1].address()],
             sharp_lights: scene.sharp_lights(),
             previous_planes: self.previous_planes.address(),
             soft: [self.filter[0].address(), self.filter[1].address()],
@@ -213,6 +217,8 @@ impl Memory {
             turn: since.turn,
             has_history: since.has_history.into(),
             is_still: since.is_still.into(),
+            ambient_is_given: settings.ambient.is_some().into(),
+            unused: 0,
         };
         (table, frame)
     }
@@ -227,9 +233,10 @@ impl Memory {
     }
 
     /// Writes the tables, and empties all lists.
-    pub(super) fn begin(&self, commands: &Commands<'_>, [view, frame]: [&[u8]; 2]) {
+    pub(super) fn begin(&self, commands: &Commands<'_>, [view, frame]: [&[u8]; 2], turn: u32) {
         commands.update(&self.view, view);
         commands.update(&self.frame, frame);
+        commands.fill(&self.measured[turn as usize], 0);
         let one = QueueHead { one_row: 1, one_layer: 1, ..QueueHead::default() };
         let heads = FrameHeads {
             rays: [one; 2],

@@ -173,7 +173,7 @@ impl Hybrid<'_> {
         let heads = Memory::readback(gpu)?;
         let mut names = Vec::new();
         let pending = gpu.submit("a hybrid frame", |commands| {
-            memory.begin(commands, [bytes_of(&tables.0), bytes_of(&tables.1)]);
+            memory.begin(commands, [bytes_of(&tables.0), bytes_of(&tables.1)], since.turn);
             self.film.begin(commands);
             names = passes.record(commands, (memory, draws, &visible), &timer, (&push, &course));
             memory.copy_heads(commands, &heads);

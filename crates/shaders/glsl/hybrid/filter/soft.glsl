@@ -14,7 +14,7 @@ Spectrum plane_albedo(uint pixel) {
 
 // This frame's sample.
 Spectrum soft_sample(uint pixel) {
-    Spectrum light = sums_read(CHANNEL_SOFT, pixel) / plane_albedo(pixel);
+    Spectrum light = (sums_read(CHANNEL_SOFT, pixel) + sums_read(CHANNEL_GATHERED, pixel)) / plane_albedo(pixel);
     return is_finite(light) ? light : BLACK;
 }
 

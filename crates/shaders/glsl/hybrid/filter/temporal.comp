@@ -4,6 +4,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#extension GL_EXT_shader_atomic_int64 : require
+
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "hybrid/filter/soft.glsl"
@@ -75,9 +77,44 @@ bool find_past(uvec2 at, Guide now, out Past past) {
     return true;
 }
 
+// Light over albedo of each invocation, and whether it counts.
+shared vec4 of_group[64];
+
+// Adds what gathering rays brought to pixels of this group to the sums of the frame. A single bright find counts no more than so many times the mean
+// before it.
+void measure(bool inside, uint pixel) {
+    const float MOST = 64.0;
+    vec4 mine = vec4(0.0);
+    if (inside && PLANE(PLANE_POSITION, pixel).w != NONE) {
+        Spectrum light = sums_read(CHANNEL_GATHERED, pixel) / plane_albedo(pixel);
+        float largest = max_component(light);
+        float most = MOST * max_component(frame_ambient());
+        light *= most > 0.0 && largest > most ? most / largest : 1.0;
+        mine = is_finite(light) ? vec4(light, 1.0) : vec4(0.0);
+    }
+    of_group[gl_LocalInvocationIndex] = mine;
+    barrier();
+    if (gl_LocalInvocationIndex < 4u) {
+        float sum = 0.0;
+        for (uint i = 0u; i < 64u; ++i) {
+            sum += of_group[i][gl_LocalInvocationIndex];
+        }
+        AmbientSums measured = push.frame.measured[push.frame.turn];
+        if (gl_LocalInvocationIndex < 3u) {
+            atomicAdd(measured.light[gl_LocalInvocationIndex], uint64_t(film_quantise(sum)));
+        } else {
+            atomicAdd(measured.pixels, uint64_t(sum));
+        }
+    }
+}
+
 void main() {
     uvec2 at = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(at, push.view.size))) {
+    bool inside = all(lessThan(at, push.view.size));
+    if (GLOBAL_ILLUMINATION) {
+        measure(inside, at.y * push.view.size.x + at.x);
+    }
+    if (!inside) {
         return;
     }
     uint pixel = at.y * push.view.size.x + at.x;
