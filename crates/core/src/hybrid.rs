@@ -101,6 +101,37 @@ pub struct FrameReport {
     pub dropped: u64,
 }
 
+/// What a frame knows of a pixel, of the frame's own size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelPlanes {
+    /// Shading normal, world space, on the side of the camera; zero for the sky.
+    pub normal: [f32; 3],
+    /// Distance along the camera's ray, metres; infinite for the sky.
+    pub distance: f32,
+    /// Directional albedo of all lobes, 0 to 1.
+    pub albedo: [f32; 3],
+    /// Perceptual roughness.
+    pub roughness: f32,
+    /// Reflectance of the interface over the diffuse base at normal incidence.
+    pub specularity: f32,
+    /// Point, world space, metres.
+    pub position: [f32; 3],
+    /// Instance of the scene; `None` for the sky.
+    pub instance: Option<u32>,
+    /// Material of the scene; `None` for the sky.
+    pub material: Option<u32>,
+    /// From here to where the point was in the frame before, pixels.
+    pub motion: [f32; 2],
+    /// Emitted radiance.
+    pub emission: [f32; 3],
+    /// Share of light that is mirrored along delta lobes.
+    pub mirrored: f32,
+    /// Share of light that is let through along them.
+    pub through: f32,
+    /// Index of refraction, of a solid the ratio of both sides.
+    pub index: f32,
+}
+
 /// What a frame took.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameDone {

@@ -4,9 +4,10 @@ use super::VulkanBackend;
 use crate::raster::Target;
 use crate::{Buffer, Commands, Gpu, Purpose, VulkanError};
 use bytemuck::bytes_of;
-use lumbre_core::hybrid::{FrameReport, HybridSettings};
+use lumbre_core::hybrid::{FrameReport, HybridSettings, PixelPlanes};
 use lumbre_core::medium::MediumStack;
 use lumbre_core::settings::View;
+use lumbre_scene::compiled::NONE;
 use lumbre_shaders::camera::CameraRecord;
 use lumbre_shaders::hybrid::{
     CHANNELS, FrameHeads, FrameTable, MEASURED_BYTES, MOST_SHARP, PLANE_QUADS, PREVIOUS_QUADS, RAY_QUADS,
@@ -223,6 +224,22 @@ impl Memory {
         (table, frame)
     }
 
+    /// The planes of the last frame.
+    ///
+    /// # Errors
+    /// If memory is out or the device is lost.
+    pub(super) fn read_planes(&self, gpu: &Gpu) -> Result<Vec<PixelPlanes>, VulkanError> {
+        let size = self.planes.size();
+        let host = Buffer::new(gpu, "planes on the host", size, Purpose::Readback)?;
+        gpu.run("reading planes", |commands| {
+            commands.copy((&self.planes, 0), (&host, 0), size);
+            Ok(())
+        })?;
+        let words: Vec<[u32; 4]> = host.read_as();
+        let pixels = self.shape.pixels() as usize;
+        Ok((0..pixels).map(|i| pixel_planes(|plane| words[plane * pixels + i])).collect())
+    }
+
     /// Keeps what the next frame wants to know of this one's planes.
     pub(super) fn keep_planes(&self, commands: &Commands<'_>) {
         let plane = 16 * self.shape.pixels();
@@ -282,6 +299,38 @@ impl Memory {
             shadow_rays: heads.traced_shadows.into(),
             dropped: heads.dropped.into(),
         }
+    }
+}
+
+/// The planes of a pixel, by number: PLANE_NORMAL and so on of `hybrid/frame.glsl`.
+fn pixel_planes(words: impl Fn(usize) -> [u32; 4]) -> PixelPlanes {
+    let [normal, albedo, position, motion, emission, shares] = core::array::from_fn(&words);
+    let floats = |w: [u32; 4]| w.map(f32::from_bits);
+    let three = |w: [u32; 4]| [w[0], w[1], w[2]].map(f32::from_bits);
+    let some = |id: u32| (id != NONE).then_some(id);
+    PixelPlanes {
+        normal: three(normal),
+        distance: f32::from_bits(normal[3]),
+        albedo: three(albedo),
+        roughness: half(albedo[3] as u16),
+        specularity: half((albedo[3] >> 16) as u16),
+        position: three(position),
+        instance: some(position[3]),
+        material: some(emission[3]),
+        motion: [floats(motion)[0], floats(motion)[1]],
+        emission: three(emission),
+        mirrored: floats(shares)[0],
+        through: floats(shares)[1],
+        index: floats(shares)[2],
+    }
+}
+
+/// A number of 16 bits as shaders pack it; those here lie between 0 and 1.
+fn half(bits: u16) -> f32 {
+    let (exponent, mantissa) = (i32::from(bits >> 10 & 31), f32::from(bits & 1023) / 1024.0);
+    match exponent {
+        0 => mantissa * 2f32.powi(-14),
+        _ => (1.0 + mantissa) * 2f32.powi(exponent - 15),
     }
 }
 

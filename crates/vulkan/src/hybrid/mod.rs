@@ -24,10 +24,10 @@ pub(crate) use passes::HybridPasses;
 pub(crate) use scene::HybridScene;
 
 use crate::path::film::FilmOnGpu;
-use crate::{Buffer, Pending, Timer, VulkanBackend, VulkanError};
+use crate::{Buffer, Gpu, Pending, Timer, VulkanBackend, VulkanError};
 use bytemuck::bytes_of;
 use lumbre_core::film::Film;
-use lumbre_core::hybrid::{AntiAliasing, FrameDone, FrameView, HybridSettings};
+use lumbre_core::hybrid::{AntiAliasing, FrameDone, FrameView, HybridSettings, PixelPlanes};
 use lumbre_shaders::camera::CameraRecord;
 use lumbre_shaders::hybrid::FramePush;
 use lumbre_shaders::view::Push;
@@ -39,14 +39,20 @@ use std::sync::Arc;
 /// Draws frames of a scene, one after another.
 pub struct Hybrid<'a> {
     backend: &'a VulkanBackend,
-    memory: Option<Memory>,
-    film: FilmOnGpu,
-    /// The frame before.
-    previous: Option<Previous>,
+    /// `None` only while it is dropped.
+    kept: Option<KeptFrames>,
     /// The last frame as it was read, unless there has been another since.
     host: Option<Film>,
     /// Frames under way, the oldest first: two at most.
     under_way: VecDeque<Flight>,
+}
+
+/// What frames leave for those to come, though the scene be edited in between: light goes on from there.
+pub(crate) struct KeptFrames {
+    memory: Option<Memory>,
+    film: FilmOnGpu,
+    /// The frame before.
+    previous: Option<Previous>,
 }
 
 /// What a frame leaves for the next.
@@ -56,6 +62,8 @@ struct Previous {
     settings: HybridSettings,
     jitter: [f32; 2],
     turn: u32,
+    /// Updates of the scene until then.
+    version: u64,
 }
 
 /// A frame under way, and where its figures will be.
@@ -64,6 +72,8 @@ struct Flight {
     timer: Timer,
     names: Vec<&'static str>,
     heads: Buffer,
+    /// Held for its address.
+    _transforms: Option<Buffer>,
 }
 
 impl VulkanBackend {
@@ -77,14 +87,18 @@ impl VulkanBackend {
             let what = adapter.lacks_for_hybrid.clone();
             return Err(VulkanError::Missing { device: adapter.name.clone(), what });
         }
-        Ok(Hybrid {
-            backend: self,
-            memory: None,
-            film: FilmOnGpu::new(self.gpu(), 1)?,
-            previous: None,
-            host: None,
-            under_way: VecDeque::new(),
-        })
+        let kept = match self.take_frames() {
+            Some(kept) => kept,
+            None => KeptFrames { memory: None, film: FilmOnGpu::new(self.gpu(), 1)?, previous: None },
+        };
+        Ok(Hybrid { backend: self, kept: Some(kept), host: None, under_way: VecDeque::new() })
+    }
+}
+
+impl Drop for Hybrid<'_> {
+    fn drop(&mut self) {
+        self.under_way.clear();
+        self.kept.take().into_iter().for_each(|kept| self.backend.keep_frames(kept));
     }
 }
 
@@ -119,9 +133,14 @@ impl Hybrid<'_> {
         self.under_way.pop_front().map(Flight::done).transpose()
     }
 
+    fn kept(&mut self) -> &mut KeptFrames {
+        self.kept.as_mut().expect("there until it is dropped")
+    }
+}
+
+impl KeptFrames {
     /// Memory for frames of this shape.
-    fn make_room(&mut self, shape: &Shape) -> Result<(), VulkanError> {
-        let gpu = self.backend.gpu();
+    fn make_room(&mut self, gpu: &Gpu, shape: &Shape) -> Result<(), VulkanError> {
         if self.memory.as_ref().is_none_or(|m| m.shape() != shape) {
             // The old one goes first: there may not be room for both.
             (self.memory, self.previous) = (None, None);
@@ -133,7 +152,9 @@ impl Hybrid<'_> {
         }
         Ok(())
     }
+}
 
+impl Hybrid<'_> {
     fn submit(&mut self, shot: &FrameView<'_>) -> Result<(), VulkanError> {
         let &FrameView { view, size, settings } = shot;
         let backend = self.backend;
@@ -141,22 +162,36 @@ impl Hybrid<'_> {
         let (passes, media) = backend.hybrid_parts(view, settings)?;
         self.host = None;
         let drawn = settings.drawn_size(size);
-        self.make_room(&Shape {
-            size: drawn,
-            shown: size,
-            solids: passes.solids(),
-            sharp_lights: backend.hybrid_scene().sharp_light_count(),
-            soft: settings.has_soft_light(),
-        })?;
-        let memory = self.memory.as_ref().expect("made above");
+        let kept = self.kept();
+        kept.make_room(
+            gpu,
+            &Shape {
+                size: drawn,
+                shown: size,
+                solids: passes.solids(),
+                sharp_lights: backend.hybrid_scene().sharp_light_count(),
+                soft: settings.has_soft_light(),
+            },
+        )?;
+        let scene = backend.scene_on_gpu();
         let camera = CameraRecord::from(&view.camera);
-        let since = since(self.previous.as_ref(), &camera, shot, backend.scene_on_gpu().transforms());
-        self.previous =
-            Some(Previous { camera, settings: *settings, jitter: since.jitter, turn: since.turn });
-        let tables = memory.tables(backend, (view, settings), self.film.addresses(), (&media, &since));
+        let transforms = scene.take_previous_transforms();
+        let transforms_address = transforms.as_ref().map_or(scene.transforms(), Buffer::address);
+        let now = Previous {
+            camera,
+            settings: *settings,
+            jitter: jitter(settings, view.frame),
+            turn: kept.previous.map_or(0, |p| 1 - p.turn),
+            version: backend.version(),
+        };
+        let since = since(kept.previous.as_ref(), &now, transforms_address);
+        kept.previous = Some(now);
+        let KeptFrames { memory, film, .. } = &*kept;
+        let memory = memory.as_ref().expect("made above");
+        let tables = memory.tables(backend, (view, settings), film.addresses(), (&media, &since));
         let path = Push {
             tables: backend.tables_address(),
-            scene: backend.scene_on_gpu().address(),
+            scene: scene.address(),
             view: memory.view_address(),
             first_pixel: [0, 0],
             size: drawn,
@@ -166,7 +201,7 @@ impl Hybrid<'_> {
             group: 0,
         };
         let push = FramePush { path, frame: memory.frame_address() };
-        let draws = &backend.scene_on_gpu().draws;
+        let draws = &scene.draws;
         let visible = passes.visible(gpu, (memory.target.pass(), draws), backend.pipeline_cache())?;
         let course = Course::of(settings);
         let timer = Timer::new(gpu, course.stamps())?;
@@ -174,13 +209,25 @@ impl Hybrid<'_> {
         let mut names = Vec::new();
         let pending = gpu.submit("a hybrid frame", |commands| {
             memory.begin(commands, [bytes_of(&tables.0), bytes_of(&tables.1)], since.turn);
-            self.film.begin(commands);
+            film.begin(commands);
             names = passes.record(commands, (memory, draws, &visible), &timer, (&push, &course));
             memory.copy_heads(commands, &heads);
             Ok(())
         })?;
-        self.under_way.push_back(Flight { pending, timer, names, heads });
+        self.under_way.push_back(Flight { pending, timer, names, heads, _transforms: transforms });
         Ok(())
+    }
+
+    /// What the last frame knows of its pixels, row by row from the top; its columns and rows are those of [`HybridSettings::drawn_size`].
+    ///
+    /// # Errors
+    /// If memory is out or the device is lost.
+    ///
+    /// # Panics
+    /// Before the first frame.
+    pub fn planes(&mut self) -> Result<Vec<PixelPlanes>, VulkanError> {
+        let gpu = self.backend.gpu();
+        self.kept().memory.as_ref().expect("a frame was drawn").read_planes(gpu)
     }
 
     /// The last frame, as a film of one sample.
@@ -191,12 +238,14 @@ impl Hybrid<'_> {
     /// # Panics
     /// Before the first frame.
     pub fn film(&mut self) -> Result<&Film, VulkanError> {
-        let [width, height] = self.memory.as_ref().expect("a frame was drawn").shape().shown;
         let film = match self.host.take() {
             Some(film) => film,
             None => {
+                let gpu = self.backend.gpu();
+                let kept = self.kept();
+                let [width, height] = kept.memory.as_ref().expect("a frame was drawn").shape().shown;
                 let mut film = Film::new(width, height);
-                self.film.read(self.backend.gpu(), &mut film)?;
+                kept.film.read(gpu, &mut film)?;
                 film
             }
         };
@@ -205,28 +254,27 @@ impl Hybrid<'_> {
 }
 
 /// What was before a frame.
-fn since(previous: Option<&Previous>, camera: &CameraRecord, shot: &FrameView<'_>, transforms: u64) -> Since {
-    let same = previous.filter(|p| p.settings == *shot.settings);
-    let jitter = match shot.settings.anti_aliasing {
-        AntiAliasing::Temporal => jitter(shot.view.frame),
-        AntiAliasing::None | AntiAliasing::Fxaa => [0.0; 2],
-    };
+fn since(before: Option<&Previous>, now: &Previous, transforms: u64) -> Since {
+    let before = before.filter(|p| p.settings == now.settings);
     Since {
-        camera: same.map_or(*camera, |p| p.camera),
+        camera: before.map_or(now.camera, |p| p.camera),
         transforms,
-        jitter,
-        previous_jitter: same.map_or(jitter, |p| p.jitter),
-        turn: previous.map_or(0, |p| 1 - p.turn),
-        has_history: same.is_some(),
-        is_still: same.is_some_and(|p| p.camera == *camera),
+        jitter: now.jitter,
+        previous_jitter: before.map_or(now.jitter, |p| p.jitter),
+        turn: now.turn,
+        has_history: before.is_some(),
+        is_still: before.is_some_and(|p| p.camera == now.camera && p.version == now.version),
     }
 }
 
 /// Places in their pixels through which frames look one after another.
 const PLACES: u32 = 32;
 
-/// Offset from the centre of a pixel, pixels: points of Halton's sequence in bases 2 and 3.
-fn jitter(frame: u32) -> [f32; 2] {
+/// Where in its pixels a frame looks, from the centre, pixels: points of Halton's sequence in bases 2 and 3.
+fn jitter(settings: &HybridSettings, frame: u32) -> [f32; 2] {
+    if settings.anti_aliasing != AntiAliasing::Temporal {
+        return [0.0; 2];
+    }
     let at = frame % PLACES + 1;
     [2, 3].map(|base| {
         let (mut n, mut digit, mut sum) = (at, 1.0, 0.0);

@@ -50,6 +50,8 @@ pub struct VulkanBackend {
     tables: Buffer,
     cache: PipelineCache,
     hybrid: HybridScene,
+    /// Updates so far.
+    version: u64,
     /// Why the scene cannot be drawn, after an update that failed.
     failed: Option<VulkanError>,
     /// One render at a time.
@@ -71,6 +73,7 @@ struct Work {
     watched: super::code::Watched,
     variants: Vec<Variant>,
     hybrid: crate::hybrid::Kept,
+    frames: Option<crate::hybrid::KeptFrames>,
     film: Option<FilmOnGpu>,
     canvas: Option<canvas::Kept>,
     paths: Option<Paths>,
@@ -88,6 +91,7 @@ impl Work {
             watched: super::code::Watched::default(),
             variants: Vec::new(),
             hybrid: Vec::new(),
+            frames: None,
             film: None,
             canvas: None,
             paths: None,
@@ -166,6 +170,7 @@ impl VulkanBackend {
             tables,
             cache: PipelineCache::open(gpu),
             hybrid,
+            version: 0,
             failed: None,
             work: Mutex::new(Work::new()),
         })

@@ -8,7 +8,7 @@ use crate::accel::Accel;
 use crate::buffer::Buffer;
 use crate::descriptors::Descriptors;
 use crate::error::VulkanError;
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, lock};
 use crate::raster::Draws;
 use crate::upload::Upload;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
@@ -17,7 +17,7 @@ use lumbre_core::measure::AccelReport;
 use lumbre_scene::compiled::lights::LightGroup;
 use lumbre_scene::{CompiledScene, Part, SceneChanges};
 use lumbre_shaders::layout::SceneTable;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use textures::Textures;
 
 /// How a scene is put on a device.
@@ -50,6 +50,8 @@ pub struct SceneOnGpu {
     pub(crate) descriptors: Arc<Descriptors>,
     /// What the rasteriser draws of it.
     pub(crate) draws: Draws,
+    /// Transforms as they were before an update, until a frame has been drawn since.
+    previous_transforms: Mutex<Option<Buffer>>,
 }
 
 impl Gpu {
@@ -80,6 +82,7 @@ impl Gpu {
             geometry,
             arrays,
             draws,
+            previous_transforms: Mutex::default(),
         };
         upload.write(&made.table, 0, bytes_of(&made.table_of(scene)))?;
         upload.finish()?;
@@ -120,9 +123,36 @@ impl SceneOnGpu {
         self.table.address()
     }
 
+    fn transforms_buffer(&self) -> &Buffer {
+        &self.arrays.iter().find(|a| a.0 == Part::Transforms).expect("one of the arrays").1
+    }
+
     /// Where the transforms of instances lie.
     pub(crate) fn transforms(&self) -> u64 {
-        self.arrays.iter().find(|a| a.0 == Part::Transforms).expect("one of the arrays").1.address()
+        self.transforms_buffer().address()
+    }
+
+    /// Before an update that moves things: what the next frame's motion is measured from.
+    fn keep_transforms(&mut self, changes: SceneChanges) -> Result<(), VulkanError> {
+        let kept = self.previous_transforms.get_mut().unwrap_or_else(PoisonError::into_inner);
+        if changes.has(Part::Instances) {
+            // Instances may have other transforms than before.
+            *kept = None;
+        } else if changes.has(Part::Transforms) && kept.is_none() {
+            let now = self.transforms_buffer();
+            let copy = Buffer::new(&self.gpu, "transforms before", now.size(), crate::Purpose::Data)?;
+            self.gpu.run("keeping transforms", |commands| {
+                commands.copy((now, 0), (&copy, 0), now.size());
+                Ok(())
+            })?;
+            *lock(&self.previous_transforms) = Some(copy);
+        }
+        Ok(())
+    }
+
+    /// Transforms as they were when the last frame was drawn, where others took their place since: for the next frame alone.
+    pub(crate) fn take_previous_transforms(&self) -> Option<Buffer> {
+        lock(&self.previous_transforms).take()
     }
 
     /// What there is of acceleration structures and what making them took.
@@ -146,6 +176,7 @@ impl SceneOnGpu {
             *self = self.gpu.scene(scene, self.options)?;
             return Ok(true);
         }
+        self.keep_transforms(changes)?;
         let mut upload = Upload::new(&self.gpu);
         for ((part, buffer), (_, name, content)) in self.arrays.iter_mut().zip(arrays(scene)) {
             if changes.has(*part) {

@@ -1,5 +1,6 @@
 //! Hybrid frames: what the rasteriser sees against the path tracer's first hits, what rays bring against paths under the same restrictions.
 
+mod motion;
 mod planes;
 mod soft;
 mod whitted;

@@ -35,16 +35,32 @@ fn mean_of_frames(both: &Both, view: &View, settings: &HybridSettings, frames: u
     sums.into_iter().map(of).collect()
 }
 
-/// Share of pixels that differ by more than 4.5 standard errors and 1 %, and the relative difference of the means.
-fn compare(paths: &Film, frames: &[(f32, f32)]) -> (f64, f64) {
-    let (mut far, mut sums) = (0, [0.0f64; 2]);
+/// How frames differ from paths.
+#[derive(Clone, Copy, Debug)]
+struct Differing {
+    /// Share of pixels that differ by more than 4.5 standard errors and 1 %.
+    far: f64,
+    /// Relative difference of the means.
+    bias: f64,
+    /// The same in standard errors.
+    z: f64,
+}
+
+fn compare(paths: &Film, frames: &[(f32, f32)]) -> Differing {
+    let (mut far, mut sums, mut variance) = (0, [0.0f64; 2], 0.0f64);
     for (a, (mean, error)) in paths.pixels().iter().zip(frames) {
         let x = a.radiance().luminance();
         sums[0] += f64::from(x);
         sums[1] += f64::from(*mean);
+        variance += f64::from(a.error()).powi(2) + f64::from(*error).powi(2);
         far += usize::from((x - mean).abs() > 4.5 * a.error().hypot(*error) + 0.01 * x.max(0.02));
     }
-    (far as f64 / frames.len() as f64, (sums[1] - sums[0]) / sums[0])
+    let difference = sums[1] - sums[0];
+    Differing {
+        far: far as f64 / frames.len() as f64,
+        bias: difference / sums[0],
+        z: difference / variance.sqrt(),
+    }
 }
 
 fn check(name: &str, both: &Both, view: &View) {
@@ -60,15 +76,16 @@ fn check(name: &str, both: &Both, view: &View) {
         anti_aliasing: AntiAliasing::None,
         ..HybridSettings::ALL
     };
-    let (far, bias) = compare(&paths, &mean_of_frames(both, &view, &dark, FRAMES));
-    println!("{name}: {:.2} % of pixels differ, means by {:.2} %", 100.0 * far, 100.0 * bias);
-    assert!(far <= 0.01 && bias.abs() <= 0.005, "{name}: {far:.3} of pixels differ, means by {bias:.4}");
+    let differing = compare(&paths, &mean_of_frames(both, &view, &dark, FRAMES));
+    println!("{name}: {differing:?}");
+    let Differing { far, bias, z } = differing;
+    assert!(far <= 0.01 && bias.abs() <= 0.01 && z.abs() < 4.5, "{name}: {differing:?}");
     // Without light from surface to surface it is another picture; so it is with ambient light.
     let direct = HybridSettings { global_illumination: false, ..dark };
     let lit = HybridSettings { ambient: Some(Rgb::WHITE), ..dark };
     for other in [direct, lit] {
-        let (far, bias) = compare(&paths, &mean_of_frames(both, &view, &other, FEW_FRAMES));
-        assert!(bias.abs() > 0.02, "{name}: {far:.3}, {bias:.4} is not seen with {other:?}");
+        let differing = compare(&paths, &mean_of_frames(both, &view, &other, FEW_FRAMES));
+        assert!(differing.bias.abs() > 0.02, "{name}: not seen: {differing:?}");
     }
 }
 

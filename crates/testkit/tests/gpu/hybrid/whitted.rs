@@ -35,7 +35,7 @@ fn scene() -> Scene {
     add(&mut scene, rectangle(Vec3::new(1.2, 0.7, 1.0), Vec3::X * 0.5, Vec3::Y * 0.7), pane);
     let varnished = Material { roughness: 0.0, ..Material::diffuse(Rgb::new(0.2, 0.3, 0.8)) };
     let varnished = Material { specular: 1.0, ior: 1.5, ..varnished };
-    add(&mut scene, cuboid(Vec3::new(1.4, 0.4, -0.8), Vec3::splat(0.4)), varnished);
+    add(&mut scene, cuboid(Vec3::new(1.0, 0.0, -1.2), Vec3::new(1.8, 0.8, -0.4)), varnished);
     let kind = LightKind::Directional;
     scene.lights.push(Light { name: String::new(), kind, intensity: grey(3.0) });
     let rotation = glam::Quat::from_rotation_arc(Vec3::NEG_Z, Vec3::new(0.4, -1.0, -0.3).normalize());

@@ -26,6 +26,7 @@ impl VulkanBackend {
         if self.scene.update(scene, changes)? {
             work.variants.clear();
             work.hybrid.clear();
+            work.frames = None;
         }
         let moved = changes.geometry() || changes.any(&[Part::Instances, Part::Transforms]);
         if moved || changes.has(Part::Materials) {
@@ -33,6 +34,7 @@ impl VulkanBackend {
             work.media = None;
         }
         self.constants = SceneConstants::new(scene);
+        self.version += 1;
         let mut upload = Upload::new(&self.gpu);
         self.hybrid = HybridScene::new(&mut upload, scene)?;
         upload.finish()

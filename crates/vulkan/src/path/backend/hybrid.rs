@@ -1,7 +1,7 @@
 //! What hybrid frames take from the path tracer's backend: the scene, the tables, pipelines that are kept from frame to frame.
 
 use super::{VARIANTS, VulkanBackend};
-use crate::hybrid::{HybridPasses, HybridScene};
+use crate::hybrid::{HybridPasses, HybridScene, KeptFrames};
 use crate::{PipelineCache, SceneOnGpu, VulkanError};
 use lumbre_core::hybrid::HybridSettings;
 use lumbre_core::medium::MediumStack;
@@ -15,6 +15,20 @@ impl VulkanBackend {
 
     pub(crate) fn hybrid_scene(&self) -> &HybridScene {
         &self.hybrid
+    }
+
+    /// Updates of the scene so far.
+    pub(crate) fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// What the last frames left, for those to come.
+    pub(crate) fn take_frames(&self) -> Option<KeptFrames> {
+        self.lock().frames.take()
+    }
+
+    pub(crate) fn keep_frames(&self, frames: KeptFrames) {
+        self.lock().frames = Some(frames);
     }
 
     pub(crate) fn pipeline_cache(&self) -> &PipelineCache {
