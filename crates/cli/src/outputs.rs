@@ -148,6 +148,18 @@ impl Outputs {
         Outputs { look: LookEdits { look: Look { transparent, ..self.look.look }, ..self.look }, ..self }
     }
 
+    /// The same for one of a row of pictures: its number stands behind the names of files.
+    pub(crate) fn numbered(&self, number: u32) -> Self {
+        let targets = self.targets.iter().map(|target| {
+            let Place::File(path) = &target.place else { return target.clone() };
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            let extension = path.extension().unwrap_or_default().to_string_lossy();
+            let name = path.with_file_name(format!("{stem}-{number:04}.{extension}"));
+            Target { place: Place::File(name), format: target.format }
+        });
+        Outputs { targets: targets.collect(), look: self.look, quality: self.quality }
+    }
+
     /// Whether one of them goes to standard output, where nothing else must then appear.
     pub(crate) fn uses_stdout(&self) -> bool {
         self.targets.iter().any(|t| t.place == Place::Stdout)

@@ -130,6 +130,14 @@ pub struct PixelPlanes {
     pub through: f32,
     /// Index of refraction, of a solid the ratio of both sides.
     pub index: f32,
+    /// Light that has no noise.
+    pub sharp: [f32; 3],
+    /// This frame's sample of light straight from lamps and sun.
+    pub soft: [f32; 3],
+    /// This frame's sample of light from the sky and other surfaces.
+    pub gathered: [f32; 3],
+    /// Both after the filter; the samples themselves where there is none.
+    pub filtered: [f32; 3],
 }
 
 /// What a frame took.

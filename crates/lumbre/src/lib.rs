@@ -42,6 +42,7 @@
 
 pub mod backend;
 pub mod camera;
+pub mod camera_path;
 pub mod cancel;
 pub mod compare;
 #[cfg(feature = "files")]
@@ -57,6 +58,7 @@ pub mod look;
 pub mod merge;
 #[cfg(feature = "files")]
 pub mod output;
+pub mod planes;
 pub mod render;
 pub mod session;
 pub mod targets;
@@ -69,6 +71,7 @@ pub use backend::{
 pub use camera::{
     Aperture, CameraChoice, CameraOptions, Focus, authored_aspect, find_camera, focus_distance,
 };
+pub use camera_path::{CameraPath, CameraPathError};
 pub use cancel::{CancelToken, Watched};
 pub use estimate::Estimator;
 #[cfg(feature = "files")]
@@ -78,6 +81,7 @@ pub use look::Look;
 #[cfg(feature = "files")]
 pub use lumbre_io::{LoadOptions, Loaded, load_scene};
 pub use lumbre_scene::{CompileError, Compiled, SceneChanges, compile, recompile};
+pub use planes::Plane;
 pub use render::{Watch, render};
 pub use targets::{Ended, Outcome, RenderFailed, SoFar, Targets};
 

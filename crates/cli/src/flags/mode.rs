@@ -7,6 +7,7 @@ use lumbre::core::Spectrum;
 use lumbre::core::hybrid::{AntiAliasing, HybridSettings};
 use lumbre::core::math::Vec3;
 use lumbre::core::settings::RenderSettings;
+use std::path::PathBuf;
 
 /// Ways to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -68,6 +69,11 @@ pub(crate) struct HybridArgs {
     /// Rows and columns that are drawn over those that are shown, 0.5 to 1; with temporal anti-aliasing. [default: 1]
     #[arg(long, value_name = "X", value_parser = render_scale, allow_hyphen_values = true)]
     pub(crate) render_scale: Option<f32>,
+
+    /// Writes what the last frame knows of its pixels into this folder, a PNG each: normal, depth, position, albedo, roughness, specularity,
+    /// mirrored, through, index, emission, object, material, motion, sharp, soft, gathered, filtered.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) planes: Option<PathBuf>,
 
     /// Radiance that stands for light that no ray brings, nits. [default: found from sky and lamps]
     #[arg(long, value_name = "R,G,B", value_parser = ambient, allow_hyphen_values = true)]

@@ -34,6 +34,8 @@ Examples:
       from elsewhere
   lumbre render scene.glb -o frame.png --mode hybrid
       as a game would draw it: rasterised, with rays for shadows, reflections and light between surfaces
+  lumbre render scene.glb -o walk.png --mode hybrid --camera-path walk.txt --frames 120
+      a walk, into walk-0001.png to walk-0120.png
   lumbre render scene.glb --edits scene.edits.json
       as it was left in the viewer; flags stand above what the file says
   lumbre render scene.glb --device gpu
@@ -58,7 +60,12 @@ pub(crate) struct RenderArgs {
     /// How the picture is drawn.
     #[arg(long, value_name = "MODE", default_value = "path")]
     pub(crate) mode: Mode,
-    /// Frames of a hybrid picture, of which the last is written: light and edges are gathered over them. [default: 1, or 32 where they are]
+    /// Moves the camera along a way, a line for each place: eye X,Y,Z, what it looks at X,Y,Z, degrees of view if they change. --frames
+    /// pictures are written, numbered: NAME-0001.png and so on.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) camera_path: Option<PathBuf>,
+    /// With --camera-path: pictures on the way [default: 60]. Else of a hybrid picture: frames before it is written, over which light and edges
+    /// are gathered [default: 32, or 1 where nothing is].
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) frames: Option<u32>,

@@ -122,6 +122,11 @@ impl Job<'_> {
         })
     }
 
+    /// The same for another view, into other files.
+    pub(super) fn with(&self, view: View, outputs: Outputs) -> Job<'_> {
+        Job { args: self.args, outputs, view, ..*self }
+    }
+
     /// Writes a finished picture of so many samples.
     pub(super) fn written(&self, film: &Film, spp: u32) -> Result<(), Failure> {
         self.developed(film, spp, None, |d| self.outputs.write(d))

@@ -42,6 +42,7 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
     let args = &*args;
     let outputs = if args.replay.pixel.is_some() { Outputs::default() } else { outputs::check(args)? };
     let camera = args.camera.options(&args.loading.edited)?;
+    let way = frame::camera_path(args)?;
     if let Some(Size(size)) = args.output.size {
         picture(args, &outputs, args.camera.part(size)?).check(args.run.memory_limit)?;
     }
@@ -69,9 +70,12 @@ pub(crate) fn run(args: &mut RenderArgs) -> Result<Code, Failure> {
         let build_seconds = start.elapsed().as_secs_f64();
         scene::focus(&camera, &*backend, &mut job.view)?;
         let prepared = Prepared { backend: &*backend, load_seconds, build_seconds, scene_bytes };
+        if let Some(way) = &way {
+            return frame::walk(&job, &prepared, way, &cancel);
+        }
         match args.mode {
             Mode::Path => job.picture(&prepared, &cancel),
-            Mode::Hybrid => frame::run(&job, &prepared, &cancel),
+            Mode::Hybrid => frame::still(&job, &prepared, &cancel),
         }
     })
 }

@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use lumbre_core::Film;
-use lumbre_core::hybrid::{FrameDone, FrameView};
+use lumbre_core::hybrid::{FrameDone, FrameView, PixelPlanes};
 use lumbre_core::measure::{Frames, PassTime};
 use std::time::Instant;
 
@@ -32,6 +32,16 @@ pub trait FrameRenderer {
     /// # Errors
     /// If the device fails.
     fn finish(&mut self) -> Result<Option<FrameDone>, RenderError>;
+
+    /// What the last frame knows of its pixels, row by row from the top; its columns and rows are those of
+    /// [`drawn_size`](lumbre_core::hybrid::HybridSettings::drawn_size).
+    ///
+    /// # Errors
+    /// If the device fails.
+    ///
+    /// # Panics
+    /// Before the first frame.
+    fn planes(&mut self) -> Result<Vec<PixelPlanes>, RenderError>;
 
     /// The last frame that was begun, as a film of one sample.
     ///

@@ -7,7 +7,7 @@ use super::{
 use crate::look::Look;
 use lumbre_core::Film;
 use lumbre_core::control::{Control, Progress};
-use lumbre_core::hybrid::{FrameDone, FrameView};
+use lumbre_core::hybrid::{FrameDone, FrameView, PixelPlanes};
 use lumbre_core::settings::View;
 use lumbre_scene::{CompiledScene, SceneChanges};
 use lumbre_vulkan::{
@@ -191,6 +191,10 @@ impl FrameRenderer for FramesOnGpu<'_> {
 
     fn finish(&mut self) -> Result<Option<FrameDone>, RenderError> {
         self.renderer.finish().map_err(|e| failed(self.backend, &e))
+    }
+
+    fn planes(&mut self) -> Result<Vec<PixelPlanes>, RenderError> {
+        self.renderer.planes().map_err(|e| failed(self.backend, &e))
     }
 
     fn film(&mut self) -> Result<&Film, RenderError> {

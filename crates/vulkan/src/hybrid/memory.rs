@@ -16,6 +16,10 @@ use lumbre_shaders::hybrid::{
 use lumbre_shaders::view::{QueueHead, ViewTable};
 use std::mem::offset_of;
 
+/// Of sums of light.
+const QUANTUM: f64 = 1.0 / (1 << 24) as f64;
+/// As `hybrid/filter/soft.glsl` has it: smallest albedo that soft light is divided by.
+const LEAST_ALBEDO: f32 = 0.02;
 /// Up to so many rays there is room for all that split.
 const ALL_SPLIT: u64 = 1 << 21;
 
@@ -224,20 +228,41 @@ impl Memory {
         (table, frame)
     }
 
-    /// The planes of the last frame.
+    /// The planes of the last frame, which filtered soft light in so many passes.
     ///
     /// # Errors
     /// If memory is out or the device is lost.
-    pub(super) fn read_planes(&self, gpu: &Gpu) -> Result<Vec<PixelPlanes>, VulkanError> {
-        let size = self.planes.size();
-        let host = Buffer::new(gpu, "planes on the host", size, Purpose::Readback)?;
-        gpu.run("reading planes", |commands| {
-            commands.copy((&self.planes, 0), (&host, 0), size);
-            Ok(())
-        })?;
-        let words: Vec<[u32; 4]> = host.read_as();
+    pub(super) fn read_planes(&self, gpu: &Gpu, filters: u32) -> Result<Vec<PixelPlanes>, VulkanError> {
+        let read = |from: &Buffer| -> Result<Buffer, VulkanError> {
+            let host = Buffer::new(gpu, "planes on the host", from.size(), Purpose::Readback)?;
+            gpu.run("reading planes", |commands| {
+                commands.copy((from, 0), (&host, 0), from.size());
+                Ok(())
+            })?;
+            Ok(host)
+        };
+        let words: Vec<[u32; 4]> = read(&self.planes)?.read_as();
+        let sums: Vec<i64> = read(&self.sums)?.read_as();
+        let filtered: Option<Vec<[f32; 4]>> = match filters {
+            0 => None,
+            n => Some(read(&self.filter[n as usize % 2])?.read_as()),
+        };
         let pixels = self.shape.pixels() as usize;
-        Ok((0..pixels).map(|i| pixel_planes(|plane| words[plane * pixels + i])).collect())
+        let light = |channel: usize, i: usize| -> [f32; 3] {
+            core::array::from_fn(|band| (sums[(3 * channel + band) * pixels + i] as f64 * QUANTUM) as f32)
+        };
+        let pixel = |i: usize| {
+            let planes = pixel_planes(|plane| words[plane * pixels + i]);
+            let [sharp, soft, gathered] = [light(0, i), light(1, i), light(2, i)];
+            let filtered = match &filtered {
+                None => core::array::from_fn(|band| soft[band] + gathered[band]),
+                Some(light) => {
+                    core::array::from_fn(|band| light[i][band] * planes.albedo[band].max(LEAST_ALBEDO))
+                }
+            };
+            PixelPlanes { sharp, soft, gathered, filtered, ..planes }
+        };
+        Ok((0..pixels).map(pixel).collect())
     }
 
     /// Keeps what the next frame wants to know of this one's planes.
@@ -322,6 +347,10 @@ fn pixel_planes(words: impl Fn(usize) -> [u32; 4]) -> PixelPlanes {
         mirrored: floats(shares)[0],
         through: floats(shares)[1],
         index: floats(shares)[2],
+        sharp: [0.0; 3],
+        soft: [0.0; 3],
+        gathered: [0.0; 3],
+        filtered: [0.0; 3],
     }
 }
 

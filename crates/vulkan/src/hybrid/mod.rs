@@ -227,7 +227,9 @@ impl Hybrid<'_> {
     /// Before the first frame.
     pub fn planes(&mut self) -> Result<Vec<PixelPlanes>, VulkanError> {
         let gpu = self.backend.gpu();
-        self.kept().memory.as_ref().expect("a frame was drawn").read_planes(gpu)
+        let kept = self.kept();
+        let filters = kept.previous.map_or(0, |p| Course::of(&p.settings).filters());
+        kept.memory.as_ref().expect("a frame was drawn").read_planes(gpu, filters)
     }
 
     /// The last frame, as a film of one sample.

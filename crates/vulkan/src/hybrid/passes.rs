@@ -64,6 +64,11 @@ impl Course {
         }
     }
 
+    /// Passes of the filter over space.
+    pub(super) fn filters(&self) -> u32 {
+        self.filters
+    }
+
     /// Stamps that a frame makes.
     pub(super) fn stamps(&self) -> usize {
         let filters = if self.filters > 0 { 2 } else { 0 };
