@@ -97,7 +97,7 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__bench)
-            opts="-h --camera --look-from --look-at --fov --sizes --depths --samples --frames --warm-up --budget --spp --triangles --time --markdown --json --max-depth --rough-bounces --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --sky --sun --env --env-rotate --env-strength --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help path samples depth size hemisphere still share equal-time build first-frame view"
+            opts="-h --camera --look-from --look-at --fov --sizes --depths --samples --frames --warm-up --budget --spp --triangles --time --markdown --json --max-depth --rough-bounces --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --sky --sun --env --env-rotate --env-strength --device --validation --threads --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help path samples depth size hemisphere still share hybrid equal-time build first-frame view"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -705,7 +705,7 @@ _lumbre() {
             return 0
             ;;
         lumbre__subcmd__render)
-            opts="-o -h --output --size --background --first-sample --keep-sums --exposure --tone --vignette --aberration --quality --spp --time --target-error --save-every --max-depth --rough-bounces --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --camera --look-from --look-at --fov --aperture --focus --crop --sky --sun --env --env-rotate --env-strength --device --validation --threads --memory-limit --progress --stats --pixel --sample --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
+            opts="-o -h --output --size --background --first-sample --keep-sums --exposure --tone --vignette --aberration --quality --mode --camera-path --frames --hybrid --soft-shadows --ambient-occlusion --global-illumination --light-filter --anti-aliasing --render-scale --planes --ambient --spp --time --target-error --save-every --max-depth --rough-bounces --roulette --sampler --seed --filter --light-sampling --transmissive-shadows --back-faces --clamp --hemisphere --camera --look-from --look-at --fov --aperture --focus --crop --sky --sun --env --env-rotate --env-strength --device --validation --threads --memory-limit --progress --stats --pixel --sample --scene --variant --edits --asset-dir --max-file-bytes --max-json-bytes --max-json-objects --max-json-depth --max-buffer-bytes --max-image-side --max-image-bytes --max-total-image-bytes --max-triangles --max-vertices --max-zero-filled --max-instances --max-node-depth --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -748,6 +748,54 @@ _lumbre() {
                     return 0
                     ;;
                 --quality)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --mode)
+                    COMPREPLY=($(compgen -W "path hybrid" -- "${cur}"))
+                    return 0
+                    ;;
+                --camera-path)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --frames)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --hybrid)
+                    COMPREPLY=($(compgen -W "thesis all" -- "${cur}"))
+                    return 0
+                    ;;
+                --soft-shadows)
+                    COMPREPLY=($(compgen -W "on off" -- "${cur}"))
+                    return 0
+                    ;;
+                --ambient-occlusion)
+                    COMPREPLY=($(compgen -W "on off" -- "${cur}"))
+                    return 0
+                    ;;
+                --global-illumination)
+                    COMPREPLY=($(compgen -W "on off" -- "${cur}"))
+                    return 0
+                    ;;
+                --light-filter)
+                    COMPREPLY=($(compgen -W "on off" -- "${cur}"))
+                    return 0
+                    ;;
+                --anti-aliasing)
+                    COMPREPLY=($(compgen -W "none fxaa temporal" -- "${cur}"))
+                    return 0
+                    ;;
+                --render-scale)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --planes)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --ambient)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -46,6 +46,26 @@ complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l tone -d 'Tone c
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l vignette -d 'Darkens towards the corners, which keep 1 - X of their light; 0 to 1. [default: 0]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l aberration -d 'Chromatic aberration: enlarges red about the centre by X per cent and makes blue smaller by as much; -50 to 50. [default: 0]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l quality -d 'Quality of a JPEG' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l mode -d 'How the picture is drawn' -r -f -a "path\t'Unbiased path tracing'
+hybrid\t'As in real time: what the camera sees is rasterised, the rest is brought by rays (takes a GPU)'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l camera-path -d 'Moves the camera along a way, a line for each place: eye X,Y,Z, what it looks at X,Y,Z, degrees of view if they change. --frames pictures are written, numbered: NAME-0001.png and so on' -r -F
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l frames -d 'With --camera-path: pictures on the way [default: 60]. Else of a hybrid picture: frames before it is written, over which light and edges are gathered [default: 32, or 1 where nothing is]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l hybrid -d 'What frames have, where the flags below do not say it' -r -f -a "thesis\t'Sharp shadows, mirrors, glass, ambient light, FXAA'
+all\t'Soft shadows and light between surfaces too, filtered, and temporal anti-aliasing'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l soft-shadows -d 'Penumbras of lamps and sun where the camera sees them. [default: that of --hybrid]' -r -f -a "on\t''
+off\t''"
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l ambient-occlusion -d 'Ambient light stays away from where things meet; without light between surfaces. [default: off]' -r -f -a "on\t''
+off\t''"
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l global-illumination -d 'Light that sky and surfaces throw on what the camera sees, one ray a pixel. [default: that of --hybrid]' -r -f -a "on\t''
+off\t''"
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l light-filter -d 'Filters the noise of all of these over space and time. [default: that of --hybrid]' -r -f -a "on\t''
+off\t''"
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l anti-aliasing -d 'How edges are made smooth. [default: fxaa for `thesis`, temporal for `all`]' -r -f -a "none\t'None: one sample at the centre of each pixel'
+fxaa\t'Each frame by itself'
+temporal\t'Over frames'"
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l render-scale -d 'Rows and columns that are drawn over those that are shown, 0.5 to 1; with temporal anti-aliasing. [default: 1]' -r
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l planes -d 'Writes what the last frame knows of its pixels into this folder, a PNG each: normal, depth, position, albedo, roughness, specularity, mirrored, through, index, emission, object, material, motion, sharp, soft, gathered, filtered' -r -F
+complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l ambient -d 'Radiance that stands for light that no ray brings, nits. [default: found from sky and lamps]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l spp -d 'Samples per pixel. [default: 4096 if neither --time nor --target-error is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l time -d 'Time for the whole command but the writing of the picture, such as 30s, 1.5min, 1h30min. [default: 10min if neither --spp nor --target-error is given either]' -r
 complete -c lumbre -n "__fish_lumbre_using_subcommand render" -l target-error -d 'Stop when the picture is this good: the estimated relMSE that `lumbre compare` would find against a perfect one. 0.02 is grainy, 0.005 shows some grain, 0.001 none. 64 samples are taken at least. [default: 0.002 if neither --spp nor --time is given either]' -r

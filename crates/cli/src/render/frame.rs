@@ -25,7 +25,7 @@ pub(super) fn camera_path(args: &RenderArgs) -> Result<Option<CameraPath>, Failu
         if args.mode == Mode::Path {
             return Err(Failure::usage("--planes: takes --mode hybrid"));
         }
-        lumbre::io::check_writable(&folder.join("normal.png"))?;
+        lumbre::io::check_writable(folder.join("normal.png"))?;
     }
     let Some(path) = &args.camera_path else {
         if args.frames.is_some() && args.mode == Mode::Path {

@@ -178,3 +178,24 @@ fn a_crop_is_cut_from_the_picture() {
         lumbre(&format!("render {CORNELL} -o a.png {words}")).exits(2).says(says);
     }
 }
+
+/// Pictures along a way, numbered; a way that is none says which line.
+#[test]
+fn pictures_along_a_way() {
+    let dir = folder();
+    let way = dir.path().join("way.txt");
+    std::fs::write(&way, "0,1,4 0,0,0\n1,1,4 0,0,0 40\n").unwrap();
+    let d = dir.path().display();
+    let command = format!("render {SMOOTH} --size 8x6 --spp 1 -o {d}/p.png --camera-path {}", way.display());
+    lumbre(&format!("{command} --frames 3")).exits(0).says("p-0003.png");
+    let names: Vec<bool> = (0..=4).map(|i| dir.path().join(format!("p-000{i}.png")).is_file()).collect();
+    assert_eq!(names, [false, true, true, true, false]);
+    assert!(!dir.path().join("p.png").exists());
+    lumbre(&format!("{command} --keep-sums")).exits(2);
+    for (text, what) in [("0,1,4\n", "line 1: "), ("0,0,1 0,0,0\n", "two places")] {
+        std::fs::write(&way, text).unwrap();
+        lumbre(&command).exits(65).says("way.txt: ").says(what);
+    }
+    std::fs::remove_file(&way).unwrap();
+    lumbre(&command).exits(66).says("way.txt");
+}

@@ -175,3 +175,31 @@ fn a_share_of_the_frame_is_that_of_its_rays() {
         assert!(traces.map(|(_, ms)| ms.as_f64().unwrap()).sum::<f64>() > 0.0, "{row}");
     }
 }
+
+/// A hybrid frame of each set, its planes, and pictures along a way.
+#[test]
+fn hybrid_frames_become_pictures() {
+    if !gpu() {
+        return;
+    }
+    let dir = folder();
+    let thesis = "--mode hybrid --hybrid thesis --device gpu --validation --planes";
+    let planes = dir.path().join("planes");
+    std::fs::create_dir(&planes).unwrap();
+    let words = format!("{thesis} {}", planes.display());
+    let run = draw(dir.path(), "thesis.exr", &words, &[]).exits(0);
+    run.says("1 frames in").says("wrote 17 planes").does_not_say("warning: validation:");
+    assert_eq!(samples(dir.path(), "thesis.exr"), 1.0);
+    for plane in lumbre::Plane::ALL {
+        assert!(planes.join(format!("{}.png", plane.name())).is_file(), "{plane:?}");
+    }
+    draw(dir.path(), "all.exr", "--mode hybrid --device gpu --frames 3", &[]).exits(0).says("3 frames in");
+    // They are other pictures.
+    let d = dir.path().display();
+    lumbre(&format!("compare {d}/thesis.exr {d}/all.exr --fail-above relmse=1e-4")).exits(1);
+    let way = dir.path().join("way.txt");
+    std::fs::write(&way, "0,1,4 0,0,0\n1,1,4 0,0,0 # aside\n").unwrap();
+    let words = format!("--mode hybrid --device gpu --frames 2 --camera-path {}", way.display());
+    draw(dir.path(), "walk.exr", &words, &[]).exits(0).says("walk-0002.exr");
+    lumbre(&format!("compare {d}/walk-0001.exr {d}/walk-0002.exr --fail-above relmse=1e-4")).exits(1);
+}
