@@ -225,9 +225,13 @@ vec2 frame_film(vec2 pixel) {
 
 // Ambient radiance: what gathering rays found in the mean in the frame before, so that light between surfaces bounces on over frames.
 vec3 frame_ambient() {
-    AmbientSums measured = push.frame.measured[1u - push.frame.turn];
-    if (!GLOBAL_ILLUMINATION || push.frame.ambient_is_given != 0u || push.frame.has_history == 0u || measured.pixels == 0ul) {
+    if (!GLOBAL_ILLUMINATION || push.frame.ambient_is_given != 0u) {
         return push.frame.ambient;
+    }
+    AmbientSums measured = push.frame.measured[1u - push.frame.turn];
+    if (push.frame.has_history == 0u || measured.pixels == 0ul) {
+        // The guess is of all light; what has bounced twice is a part of it.
+        return 0.25 * push.frame.ambient;
     }
     vec3 sum = vec3(float(measured.light[0]), float(measured.light[1]), float(measured.light[2]));
     return sum * (1.0 / 16777216.0) / float(measured.pixels);

@@ -9,8 +9,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 // Light that differs by so many standard deviations is of another place.
 const float LUMINANCE_SIGMAS = 4.0;
-// Power of the cosine between normals.
+// Power of the cosine between normals; and in the first frame of a place, where bumps of a surface would stand alone with their noise.
 const float NORMAL_POWER = 64.0;
+const float FIRST_NORMAL_POWER = 8.0;
+// Frames after which it is the former.
+const float FIRST_FRAMES = 4.0;
 
 // The standard deviation, from a variance that is itself noisy: smoothed over neighbours.
 float smooth_sigma(uvec2 at, FrameFloats soft) {
@@ -43,7 +46,9 @@ void main() {
     vec4 result = light;
     if (here.instance != NONE) {
         float y_here = luminance(light.xyz);
-        float tolerance = LUMINANCE_SIGMAS * smooth_sigma(at, from) + 1e-4 * y_here + 1e-12;
+        float sigma_here = smooth_sigma(at, from);
+        float frames = push.frame.moments[push.frame.turn].at[pixel].z;
+        float power = mix(FIRST_NORMAL_POWER, NORMAL_POWER, clamp((frames - 1.0) / FIRST_FRAMES, 0.0, 1.0));
         // B-spline of three taps, over the centre.
         vec4 sum = light;
         float weights = 1.0;
@@ -60,8 +65,11 @@ void main() {
                 continue;
             }
             vec4 l = from.at[there];
+            // The noisier of both decides: a pixel that has found nothing yet does not know how much there is to find.
+            float sigma = max(sigma_here, sqrt(l.w));
+            float tolerance = LUMINANCE_SIGMAS * sigma + 1e-4 * y_here + 1e-12;
             float kernel = (offset.x == 0 ? 1.0 : 0.5) * (offset.y == 0 ? 1.0 : 0.5);
-            float w = kernel * pow(max(dot(here.normal, other.normal), 0.0), NORMAL_POWER)
+            float w = kernel * pow(max(dot(here.normal, other.normal), 0.0), power)
                 * exp(-abs(luminance(l.xyz) - y_here) / tolerance - off_plane(here, other.position, float(stride)));
             sum += vec4(w * l.xyz, w * w * l.w);
             weights += w;
